@@ -1,0 +1,25 @@
+find_package(Eigen3 3.4 REQUIRED CONFIG)
+find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(yaml-cpp REQUIRED CONFIG)
+find_package(fmt REQUIRED CONFIG)
+find_package(spdlog REQUIRED CONFIG)
+find_package(nlohmann_json REQUIRED CONFIG)
+find_path(CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
+find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
+find_library(UMFPACK_LIBRARY umfpack REQUIRED)
+find_path(ARPACK_INCLUDE arpack/arpack.h REQUIRED)
+find_library(ARPACK_LIBRARY arpack REQUIRED)
+find_path(MUMPS_INCLUDE dmumps_c.h REQUIRED)
+find_library(MUMPS_LIBRARY dmumps_seq REQUIRED)
+find_library(OPENBLAS_LIBRARY openblas REQUIRED)
+find_library(LAPACKE_LIBRARY lapacke REQUIRED)
+find_path(EXODUS_INCLUDE exodusII.h REQUIRED)
+find_library(EXODUS_LIBRARY exoIIv2c REQUIRED)
+find_path(NANOFLANN_INCLUDE nanoflann.hpp REQUIRED)
+add_library(perimode_dependencies INTERFACE)
+target_include_directories(perimode_dependencies SYSTEM INTERFACE
+  ${CHOLMOD_INCLUDE} ${ARPACK_INCLUDE} ${MUMPS_INCLUDE} ${EXODUS_INCLUDE} ${NANOFLANN_INCLUDE})
+target_link_libraries(perimode_dependencies INTERFACE
+  OpenMP::OpenMP_CXX yaml-cpp fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json
+  ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY} ${ARPACK_LIBRARY} ${MUMPS_LIBRARY} ${EXODUS_LIBRARY}
+  ${LAPACKE_LIBRARY} ${OPENBLAS_LIBRARY})

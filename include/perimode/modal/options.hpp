@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <utility>
+
+namespace perimode {
+
+/// lanczos: block Lanczos with full reorthogonalisation on CHOLMOD's factor. arpack: ARPACK on
+/// the same factor. dense: LAPACK, all modes.
+enum class ModalSolver { automatic, lanczos, arpack, dense };
+
+/// How the set of modes is shown to be complete. inertia: the count of negative pivots of
+/// K - sigma M. restart: a deflated random block finds nothing new below the last mode.
+enum class CertificateMethod { automatic, inertia, restart, none };
+
+enum class ReferenceKind { none, closed_form };
+
+/// The case file's `analysis.modal`. At most one of modes, range, shift is given.
+struct ModalOptions {
+  std::optional<int> modes = {};                        ///< lowest, rigid ones counted
+  std::optional<std::pair<double, double>> range = {};  ///< all in [f1, f2], Hz
+  std::optional<double> shift = {};                     ///< the `modes` nearest to f, Hz
+  ModalSolver solver = ModalSolver::automatic;
+  CertificateMethod certificate = CertificateMethod::automatic;
+  ReferenceKind reference = ReferenceKind::none;
+  int block_size = 0;  ///< of block Lanczos; 0: chosen (4, or 8 for cubes)
+};
+
+}  // namespace perimode
