@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "perimode/bonds/family.hpp"
 #include "perimode/boundary/conditions.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/geometry/region.hpp"

@@ -18,9 +18,6 @@ enum class Kernel { constant, conical, gaussian, inverse_distance };
 /// stores the continuum energy of pure dilation.
 enum class Calibration { continuum, discrete, discrete_cut };
 
-/// Share beta of a neighbour's cell counted inside the horizon (docs/case_reference.md).
-enum class VolumeCorrection { none, linear, exact };
-
 struct Micromodulus {
   Kernel kernel = Kernel::constant;
   double p = 2.0;  ///< gaussian only

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "perimode/assembly/model.hpp"
+#include "perimode/modal/options.hpp"
+
+namespace perimode {
+
+struct OutputSpec {
+  std::filesystem::path directory = "out";
+  std::vector<std::string> fields = {"displacement"};
+  Where where = {};
+};
+
+/// A case file, read and checked on its own (not yet built).
+struct Case {
+  std::string title;
+  Model model;
+  std::optional<ModalOptions> modal;
+  Where modal_where = {};
+  OutputSpec output;
+  std::filesystem::path file;
+};
+
+/// Reads a YAML or JSON case (docs/case_reference.md). `overrides` are `key=value` texts, the key a
+/// dotted path ("body.horizon.ratio=4", "boundary.0.wall=x-"), applied before checking.
+/// Throws Error(invalid_input) with file:line:column for anything that is not exactly as
+/// documented: unknown, duplicate or missing keys, wrong types, values out of range.
+[[nodiscard]] Case read_case(const std::filesystem::path& file,
+                             const std::vector<std::string>& overrides = {});
+
+}  // namespace perimode
