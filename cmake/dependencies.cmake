@@ -1,25 +1,43 @@
+# What Perimode stands on. Debian 12 holds every one of these (scripts/install_deps.sh). Packages
+# without a CMake package of their own are found by the Find modules beside this file.
 find_package(Eigen3 3.4 REQUIRED CONFIG)
 find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(CHOLMOD REQUIRED)
+find_package(UMFPACK REQUIRED)
+find_package(ARPACK REQUIRED)
+find_package(MUMPS REQUIRED)
+find_package(OpenBLAS REQUIRED)
+find_package(LAPACKE REQUIRED)
+find_package(Exodus REQUIRED)
 find_package(yaml-cpp REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
 find_package(spdlog REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
-find_path(CHOLMOD_INCLUDE cholmod.h PATH_SUFFIXES suitesparse REQUIRED)
-find_library(CHOLMOD_LIBRARY cholmod REQUIRED)
-find_library(UMFPACK_LIBRARY umfpack REQUIRED)
-find_path(ARPACK_INCLUDE arpack/arpack.h REQUIRED)
-find_library(ARPACK_LIBRARY arpack REQUIRED)
-find_path(MUMPS_INCLUDE dmumps_c.h REQUIRED)
-find_library(MUMPS_LIBRARY dmumps_seq REQUIRED)
-find_library(OPENBLAS_LIBRARY openblas REQUIRED)
-find_library(LAPACKE_LIBRARY lapacke REQUIRED)
-find_path(EXODUS_INCLUDE exodusII.h REQUIRED)
-find_library(EXODUS_LIBRARY exoIIv2c REQUIRED)
-find_path(NANOFLANN_INCLUDE nanoflann.hpp REQUIRED)
+find_package(nanoflann REQUIRED CONFIG)
+
+# Linked into the library, so whoever links the static library needs them again (perimode-config.cmake.in).
+set(perimode_linked
+  OpenMP::OpenMP_CXX CHOLMOD::CHOLMOD UMFPACK::UMFPACK ARPACK::ARPACK MUMPS::dmumps_seq Exodus::Exodus
+  LAPACKE::LAPACKE OpenBLAS::OpenBLAS yaml-cpp fmt::fmt spdlog::spdlog)
+# Headers alone: nobody downstream meets them.
+set(perimode_header_only nlohmann_json::nlohmann_json nanoflann::nanoflann)
+
+# For tests and benchmarks, which compare with these libraries directly. Never installed.
 add_library(perimode_dependencies INTERFACE)
-target_include_directories(perimode_dependencies SYSTEM INTERFACE
-  ${CHOLMOD_INCLUDE} ${ARPACK_INCLUDE} ${MUMPS_INCLUDE} ${EXODUS_INCLUDE} ${NANOFLANN_INCLUDE})
-target_link_libraries(perimode_dependencies INTERFACE
-  OpenMP::OpenMP_CXX yaml-cpp fmt::fmt spdlog::spdlog nlohmann_json::nlohmann_json
-  ${CHOLMOD_LIBRARY} ${UMFPACK_LIBRARY} ${ARPACK_LIBRARY} ${MUMPS_LIBRARY} ${EXODUS_LIBRARY}
-  ${LAPACKE_LIBRARY} ${OPENBLAS_LIBRARY})
+target_link_libraries(perimode_dependencies INTERFACE Eigen3::Eigen ${perimode_linked} ${perimode_header_only})
+
+include(FeatureSummary)
+set_package_properties(Eigen3 PROPERTIES DESCRIPTION "dense and sparse matrices (public headers)")
+set_package_properties(OpenMP PROPERTIES DESCRIPTION "threads")
+set_package_properties(CHOLMOD PROPERTIES DESCRIPTION "supernodal Cholesky, METIS order")
+set_package_properties(UMFPACK PROPERTIES DESCRIPTION "sparse LU")
+set_package_properties(ARPACK PROPERTIES DESCRIPTION "Lanczos and Arnoldi")
+set_package_properties(MUMPS PROPERTIES DESCRIPTION "sequential indefinite factorisation, inertia")
+set_package_properties(OpenBLAS PROPERTIES DESCRIPTION "dense kernels")
+set_package_properties(LAPACKE PROPERTIES DESCRIPTION "dense eigenproblems")
+set_package_properties(Exodus PROPERTIES DESCRIPTION "result files")
+set_package_properties(yaml-cpp PROPERTIES DESCRIPTION "case files")
+set_package_properties(fmt PROPERTIES DESCRIPTION "text")
+set_package_properties(spdlog PROPERTIES DESCRIPTION "log lines of the program")
+set_package_properties(nlohmann_json PROPERTIES DESCRIPTION "summaries")
+set_package_properties(nanoflann PROPERTIES DESCRIPTION "neighbour search in clouds")

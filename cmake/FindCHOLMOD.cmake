@@ -1,0 +1,21 @@
+# CHOLMOD of SuiteSparse (with its METIS partition module). Target: CHOLMOD::CHOLMOD
+find_path(CHOLMOD_INCLUDE_DIR cholmod_partition.h PATH_SUFFIXES suitesparse)
+find_library(CHOLMOD_LIBRARY cholmod)
+mark_as_advanced(CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY)
+if(CHOLMOD_INCLUDE_DIR AND EXISTS "${CHOLMOD_INCLUDE_DIR}/cholmod_core.h")
+  set(CHOLMOD_VERSION "")
+  foreach(part MAIN SUB SUBSUB)
+    file(STRINGS "${CHOLMOD_INCLUDE_DIR}/cholmod_core.h" line REGEX "#define CHOLMOD_${part}_VERSION ")
+    string(REGEX REPLACE ".*_VERSION +([0-9]+).*" "\\1" number "${line}")
+    string(APPEND CHOLMOD_VERSION ".${number}")
+  endforeach()
+  string(SUBSTRING "${CHOLMOD_VERSION}" 1 -1 CHOLMOD_VERSION)
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(CHOLMOD REQUIRED_VARS CHOLMOD_LIBRARY CHOLMOD_INCLUDE_DIR
+                                  VERSION_VAR CHOLMOD_VERSION)
+if(CHOLMOD_FOUND AND NOT TARGET CHOLMOD::CHOLMOD)
+  add_library(CHOLMOD::CHOLMOD UNKNOWN IMPORTED)
+  set_target_properties(CHOLMOD::CHOLMOD PROPERTIES
+    IMPORTED_LOCATION "${CHOLMOD_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${CHOLMOD_INCLUDE_DIR}")
+endif()

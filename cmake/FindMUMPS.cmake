@@ -1,0 +1,15 @@
+# Sequential MUMPS in double precision. Target: MUMPS::dmumps_seq
+find_path(MUMPS_INCLUDE_DIR dmumps_c.h)
+find_library(MUMPS_LIBRARY dmumps_seq)
+mark_as_advanced(MUMPS_INCLUDE_DIR MUMPS_LIBRARY)
+if(MUMPS_INCLUDE_DIR)
+  file(STRINGS "${MUMPS_INCLUDE_DIR}/dmumps_c.h" line REGEX "#define MUMPS_VERSION \"")
+  string(REGEX REPLACE ".*\"([0-9.]+)\".*" "\\1" MUMPS_VERSION "${line}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(MUMPS REQUIRED_VARS MUMPS_LIBRARY MUMPS_INCLUDE_DIR VERSION_VAR MUMPS_VERSION)
+if(MUMPS_FOUND AND NOT TARGET MUMPS::dmumps_seq)
+  add_library(MUMPS::dmumps_seq UNKNOWN IMPORTED)
+  set_target_properties(MUMPS::dmumps_seq PROPERTIES
+    IMPORTED_LOCATION "${MUMPS_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${MUMPS_INCLUDE_DIR}")
+endif()

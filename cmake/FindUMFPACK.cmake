@@ -1,0 +1,16 @@
+# UMFPACK of SuiteSparse. Target: UMFPACK::UMFPACK
+find_path(UMFPACK_INCLUDE_DIR umfpack.h PATH_SUFFIXES suitesparse)
+find_library(UMFPACK_LIBRARY umfpack)
+mark_as_advanced(UMFPACK_INCLUDE_DIR UMFPACK_LIBRARY)
+if(UMFPACK_INCLUDE_DIR)
+  file(STRINGS "${UMFPACK_INCLUDE_DIR}/umfpack.h" line REGEX "#define UMFPACK_VERSION \"UMFPACK V[0-9.]+")
+  string(REGEX REPLACE ".*UMFPACK V([0-9.]+).*" "\\1" UMFPACK_VERSION "${line}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(UMFPACK REQUIRED_VARS UMFPACK_LIBRARY UMFPACK_INCLUDE_DIR
+                                  VERSION_VAR UMFPACK_VERSION)
+if(UMFPACK_FOUND AND NOT TARGET UMFPACK::UMFPACK)
+  add_library(UMFPACK::UMFPACK UNKNOWN IMPORTED)
+  set_target_properties(UMFPACK::UMFPACK PROPERTIES
+    IMPORTED_LOCATION "${UMFPACK_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${UMFPACK_INCLUDE_DIR}")
+endif()
