@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/reference/plane_wave.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "reference/quadrature.hpp"
+
+namespace perimode {
+namespace {
+
+void require_shear_exists(const Medium& medium, Branch branch) {
+  if (branch == Branch::shear && medium.continuum.dimension == 1) {
+    invalid_input({"a pressure wave in one dimension", "a shear wave", "a bar has one branch only"});
+  }
+}
+
+double cell_volume(const Medium& medium, double spacing, int dimension) {
+  return medium.continuum.section * std::pow(spacing, dimension);
+}
+
+double constant_of(const Medium& medium) {
+  return micromodulus_constant(medium.material.micromodulus, medium.material.youngs_modulus, medium.horizon,
+                               medium.continuum);
+}
+
+}  // namespace
+
+double classical_speed(const Medium& medium, Branch branch) {
+  require_shear_exists(medium, branch);
+  const double bar = std::sqrt(medium.material.youngs_modulus / medium.material.density);
+  if (medium.continuum.dimension == 1) return bar;
+  const bool pressure = branch == Branch::pressure;
+  const bool plane_stress = medium.continuum.dimension == 2 && medium.continuum.plane == Plane::stress;
+  if (plane_stress) return bar * std::sqrt(pressure ? 9.0 / 8.0 : 3.0 / 8.0);
+  return bar * std::sqrt(pressure ? 6.0 / 5.0 : 2.0 / 5.0);
+}
+
+double continuum_frequency(const Medium& medium, Branch branch, double k) {
+  require_shear_exists(medium, branch);
+  const Micromodulus& kernel = medium.material.micromodulus;
+  const double scale = constant_of(medium) * medium.continuum.section / medium.material.density;
+  const auto weight = branch == Branch::pressure ? reference::DirectionWeight::longitudinal
+                                                 : reference::DirectionWeight::transverse;
+  const double squared = reference::radial_integral(
+      weight, medium.continuum.dimension, medium.horizon, k, reference::panels_of(kernel),
+      [&](double r) { return scale * kernel_shape(kernel, r, medium.horizon) / r; });
+  return std::sqrt(squared);
+}
+
+template <int Dim>
+double calibration_factor(const Medium& medium, const Family<Dim>& family) {
+  const double c0 = constant_of(medium);
+  const double volume = cell_volume(medium, family.spacing, Dim);
+  double energy = 0.0;
+  for (std::size_t j = 0; j < family.length.size(); ++j) {
+    const double r = family.length[j];
+    energy += 0.25 * micromodulus(medium.material.micromodulus, c0, r, medium.horizon) * r *
+              family.weight[j] * volume;
+  }
+  return dilation_energy(medium.material.youngs_modulus, medium.continuum) / energy;
+}
+
+template <int Dim>
+std::vector<double> bond_rates(const Medium& medium, const Family<Dim>& family, Calibration calibration) {
+  const double factor = calibration == Calibration::continuum ? 1.0 : calibration_factor<Dim>(medium, family);
+  const double c0 = factor * constant_of(medium);
+  const double volume_per_density = cell_volume(medium, family.spacing, Dim) / medium.material.density;
+  std::vector<double> rates(family.length.size());
+  for (std::size_t j = 0; j < rates.size(); ++j) {
+    const double r = family.length[j];
+    rates[j] = micromodulus(medium.material.micromodulus, c0, r, medium.horizon) * family.weight[j] *
+               volume_per_density / r;
+  }
+  return rates;
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> lattice_symbol(const Family<Dim>& family, std::span<const double> rates,
+                                               const Point<Dim>& k) {
+  Eigen::Matrix<double, Dim, Dim> symbol = Eigen::Matrix<double, Dim, Dim>::Zero();
+  const std::size_t pairs = family.offset.size() / 2;  // offset j and its negative give the same
+  for (std::size_t j = 0; j < pairs; ++j) {
+    Point<Dim> xi;
+    for (int a = 0; a < Dim; ++a) xi[a] = family.spacing * family.offset[j][static_cast<std::size_t>(a)];
+    const double s = std::sin(0.5 * k.dot(xi));
+    const double factor = 4.0 * rates[j] * s * s / (family.length[j] * family.length[j]);
+    symbol += factor * xi * xi.transpose();
+  }
+  return symbol;
+}
+
+template <int Dim>
+Eigen::VectorXd plane_wave(std::span<const Point<Dim>> positions, const Point<Dim>& k,
+                           const Point<Dim>& amplitude, double phase) {
+  Eigen::VectorXd u(Dim * static_cast<Eigen::Index>(positions.size()));
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    u.template segment<Dim>(Dim * static_cast<Eigen::Index>(i)) =
+        amplitude * std::cos(k.dot(positions[i]) + phase);
+  }
+  return u;
+}
+
+#define PERIMODE_INSTANTIATE(Dim)                                                                           \
+  template double calibration_factor<Dim>(const Medium&, const Family<Dim>&);                               \
+  template std::vector<double> bond_rates<Dim>(const Medium&, const Family<Dim>&, Calibration);             \
+  template Eigen::Matrix<double, Dim, Dim> lattice_symbol<Dim>(const Family<Dim>&, std::span<const double>, \
+                                                               const Point<Dim>&);                          \
+  template Eigen::VectorXd plane_wave<Dim>(std::span<const Point<Dim>>, const Point<Dim>&,                  \
+                                           const Point<Dim>&, double);
+PERIMODE_INSTANTIATE(1)
+PERIMODE_INSTANTIATE(2)
+PERIMODE_INSTANTIATE(3)
+#undef PERIMODE_INSTANTIATE
+
+}  // namespace perimode
