@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimode/assembly/model.hpp"
+#include "perimode/bonds/bonds.hpp"
+#include "perimode/boundary/boundary_map.hpp"
+#include "perimode/core/sink.hpp"
+#include "perimode/geometry/particles.hpp"
+#include "perimode/material/micromodulus.hpp"
+
+namespace perimode {
+
+/// Micromoduli of a body's bonds. A bond of i and j has the constant
+///   c = (f_i c_i(r) + f_j c_j(r)) / 2 in one block, the harmonic mean of the two between blocks,
+/// with f the calibration factors; it is the same to the last bit seen from both ends.
+struct BondConstants {
+  /// Grids: c(|xi|) per block and family member (block-major), N/m6.
+  std::vector<double> kernel;
+  /// Clouds: c_i(r) per bond end, i the particle whose end it is, N/m6.
+  std::vector<double> kernel_of_end;
+  /// Calibration factor f per particle; empty: all 1.
+  std::vector<double> factor;
+  int family_size = 0;
+};
+
+/// A body ready to be assembled: everything the operators K and M are made of.
+template <int Dim>
+struct Body {
+  Particles<Dim> particles;
+  Bonds<Dim> bonds;
+  BondConstants constants;
+  BoundaryMap<Dim> boundary;
+  std::vector<double> density;  ///< per block, kg/m3
+  double section = 1.0;         ///< thickness (2D), area (1D), 1 (3D)
+  Offset cut = 0;               ///< bonds cut by pre-cracks
+
+  [[nodiscard]] Index count() const { return particles.count(); }
+};
+
+/// Builds the body a model describes: particles, bonds, pre-cracks, calibration, boundary map.
+/// Throws invalid_input, pointing at the place in the case, for anything that makes no body.
+/// Cost O(particles * family).
+template <int Dim>
+[[nodiscard]] Body<Dim> build_body(const Model& model, const Sink& sink = {});
+
+/// What a body would hold, from the model alone.
+struct BodySize {
+  double particles = 0.0;
+  double family = 0.0;  ///< directed bonds of an interior particle
+};
+[[nodiscard]] BodySize estimate_size(const Model& model);
+
+/// Stiffness k_b = c beta V_i V_j / |xi| of the bond seen from particle i, N/m: force per stretch
+/// displacement along the bond. docs/theory/01_bond.md eq. (2). Cost O(1).
+template <int Dim>
+[[nodiscard]] double bond_stiffness(const Body<Dim>& body, Index i, const BondEnd<Dim>& end);
+
+}  // namespace perimode

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "perimode/bonds/bonds.hpp"
+#include "perimode/boundary/conditions.hpp"
+#include "perimode/linalg/sparse.hpp"
+
+namespace perimode {
+
+/// The affine map u_all = T q + g from the free degrees of freedom to those of all particles, ghosts
+/// included, in its compact form: a dof of a particle is free or has a given value; a dof of a ghost is
+///   u_ghost[a] = coefficient[a] u_image[a] + value[a].
+/// dof = Dim * particle + component. Sources: docs/theory/03_boundaries.md.
+template <int Dim>
+struct BoundaryMap {
+  std::vector<Index> free_number;     ///< per dof of a particle: number among the free ones, or -1
+  std::vector<double> given;          ///< per dof of a particle: its value where it is not free, m
+  std::vector<Index> image;           ///< per ghost: the particle it follows
+  std::vector<double> coefficient;    ///< Dim per ghost
+  std::vector<double> value;          ///< Dim per ghost, m
+  Index free = 0;                     ///< number of free dofs
+
+  /// Displacements of all particle dofs from the free ones. Cost O(dofs).
+  [[nodiscard]] std::vector<double> expand(const double* q) const;
+};
+
+/// The same map as sparse matrices: T (all dofs x free), R (free x all dofs, picks the equations), g.
+struct BoundaryMatrices {
+  Csr t;
+  Csr r;
+  std::vector<double> g;
+};
+
+/// What lies beyond each face of a grid, for make_grid_bonds. Throws invalid_input: two
+/// conditions on one face, a wall on a periodic axis or on an axis the body does not have.
+template <int Dim>
+[[nodiscard]] std::array<Beyond, 2 * Dim> beyond_faces(const std::vector<BoundaryCondition>& conditions,
+                                                       const std::array<bool, 3>& periodic);
+
+/// Numbers the free dofs and says what ghosts do. A fixed dof stays fixed whatever comes later; among
+/// prescribed values the last one holds. Throws invalid_input: a region that holds no particle, a component
+/// the body does not have, surface_nodes outside 1D. Cost O(particles + ghosts).
+template <int Dim>
+[[nodiscard]] BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<Dim>& bonds,
+                                                 const std::vector<BoundaryCondition>& conditions);
+
+template <int Dim>
+[[nodiscard]] BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map);
+
+}  // namespace perimode

@@ -1,0 +1,319 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "perimode/assembly/body.hpp"
+#include "perimode/geometry/cloud.hpp"
+
+namespace perimode {
+
+namespace {
+
+double section_of(const Model& model) {
+  if (model.dimension == 1) return model.area;
+  return model.dimension == 2 ? model.thickness : 1.0;
+}
+
+void require_positive(double value, const char* name, const Where& where) {
+  if (!(value > 0.0) || !std::isfinite(value)) {
+    invalid_input({fmt::format("{} > 0", name), fmt::format("{}", value), "give it in SI units", where});
+  }
+}
+
+template <int Dim>
+Particles<Dim> cloud_particles(const CloudSpec& spec) {
+  CloudData data = read_cloud(spec.file, Dim);
+  Particles<Dim> p;
+  std::map<std::string, int> number = {{"", 0}};
+  for (std::size_t i = 0; i < data.volume.size(); ++i) {
+    p.position.push_back(Eigen::Map<const Point<Dim>>(data.position.data() + i * Dim));
+    p.volume.push_back(data.volume[i]);
+    const std::string name = data.block.empty() ? "" : data.block[i];
+    const auto [it, fresh] = number.emplace(name, static_cast<int>(p.block_names.size()));
+    if (fresh) p.block_names.push_back(name);
+    p.block.push_back(it->second);
+  }
+  return p;
+}
+
+template <int Dim>
+Particles<Dim> make_particles(const Model& model) {
+  Particles<Dim> particles;
+  if (const auto* spec = std::get_if<GridSpec>(&model.particles)) {
+    const auto grid = make_grid<Dim>(spec->lower, spec->upper, spec->spacing, spec->where);
+    particles = grid_particles(grid, section_of(model));
+    std::vector<Index> removed;
+    for (const auto& region : spec->remove) {
+      const auto here = select(region, particles);
+      removed.insert(removed.end(), here.begin(), here.end());
+    }
+    std::sort(removed.begin(), removed.end());
+    removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
+    particles = without(particles, removed);
+    if (particles.count() == 0) {
+      invalid_input({"a body with particles", "none left after `remove`", "remove less", spec->where});
+    }
+  } else {
+    particles = cloud_particles<Dim>(std::get<CloudSpec>(model.particles));
+  }
+  for (const auto& block : model.blocks) {  // where blocks overlap the last one holds
+    const auto inside = select(block.region, particles);
+    if (inside.empty()) {
+      invalid_input({fmt::format("block '{}' to hold at least one particle", block.name), "none",
+                     "move or enlarge its region", block.region.where});
+    }
+    const auto known = std::find(particles.block_names.begin() + 1, particles.block_names.end(), block.name);
+    const auto number = static_cast<int>(known - particles.block_names.begin());
+    if (known == particles.block_names.end()) particles.block_names.push_back(block.name);
+    for (Index i : inside) particles.block[i] = number;
+  }
+  return particles;
+}
+
+template <int Dim>
+std::vector<Crack<Dim>> make_cracks(const Model& model) {
+  std::vector<Crack<Dim>> cracks;
+  for (const auto& spec : model.precracks) {
+    Crack<Dim> crack;
+    for (const auto& corner : spec.points) crack.corner.push_back(to_point<Dim>(corner, "a pre-crack corner", spec.where));
+    const std::size_t least = Dim;  // a point, a segment, a polygon
+    if (crack.corner.size() < least || (Dim < 3 && crack.corner.size() > least)) {
+      invalid_input({fmt::format("{} corner{} of a pre-crack", Dim == 3 ? "at least 3" : std::to_string(Dim),
+                                 Dim == 1 ? "" : "s"),
+                     fmt::format("{}", crack.corner.size()), "see the case reference", spec.where});
+    }
+    if constexpr (Dim > 1) {
+      for (std::size_t k = 0; k < crack.corner.size(); ++k) {
+        if (crack.corner[k] == crack.corner[(k + 1) % crack.corner.size()]) {
+          invalid_input({"a pre-crack of positive length", "two equal corners", "move one of them", spec.where});
+        }
+      }
+    }
+    if constexpr (Dim == 3) {
+      const Point<3> normal = (crack.corner[1] - crack.corner[0]).cross(crack.corner[2] - crack.corner[0]).normalized();
+      for (const auto& c : crack.corner) {
+        if (!(std::abs(normal.dot(c - crack.corner[0])) <= 1e-9 * (crack.corner[1] - crack.corner[0]).norm())) {
+          invalid_input({"a plane polygon, its first three corners not on a line", "corners out of plane",
+                         "split it into plane pieces", spec.where});
+        }
+      }
+    }
+    cracks.push_back(crack);
+  }
+  return cracks;
+}
+
+template <int Dim>
+Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
+  const HorizonSpec& h = model.horizon;
+  if (!(h.value > 0.0)) {
+    invalid_input({"body.horizon > 0", fmt::format("{}", h.value), "give {ratio: 3}", h.where});
+  }
+  try {
+    if (particles.grid) {
+      const double spacing = particles.grid->spacing;
+      if (h.rule == HorizonSpec::Rule::neighbours) {
+        invalid_input({"horizon {ratio} or {length} for a grid", "{neighbours}", "neighbours belong to clouds", h.where});
+      }
+      const double delta = h.rule == HorizonSpec::Rule::ratio ? h.value * spacing : h.value;
+      return make_grid_bonds(particles, make_family<Dim>(spacing, delta, model.volume_correction, model.self_cell),
+                             beyond_faces<Dim>(model.boundary, model.periodic));
+    }
+    if (h.rule == HorizonSpec::Rule::ratio) {
+      invalid_input({"horizon {length} or {neighbours} for a cloud", "{ratio}", "a cloud has no spacing", h.where});
+    }
+    const bool walls = std::any_of(model.boundary.begin(), model.boundary.end(),
+                                   [](const auto& c) { return std::holds_alternative<Wall>(c.what); });
+    if (walls || model.periodic[0] || model.periodic[1] || model.periodic[2]) {
+      invalid_input({"a grid where there are walls or periodic axes", "a cloud", "use a grid, or fix regions of the cloud",
+                     std::get<CloudSpec>(model.particles).where});
+    }
+    std::vector<double> horizon(particles.count(), h.value);
+    if (h.rule == HorizonSpec::Rule::neighbours) horizon = cloud_horizons(particles, static_cast<int>(h.value));
+    return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model));
+  } catch (const Error& error) {
+    if (error.where().line > 0 || h.where.line == 0) throw;
+    throw Error(error.kind(), h.where.text() + ": " + error.what());
+  }
+}
+
+struct BlockMaterial {
+  Material material;
+  double energy;  ///< of unit dilation, Pa
+};
+
+/// c_i(r) tables and calibration factors, docs/theory/02_micromoduli.md.
+template <int Dim>
+void set_kernels(BondConstants& constants, const Body<Dim>& body, const std::vector<BlockMaterial>& blocks,
+                 const Continuum& continuum) {
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
+    const Family<Dim>& f = grid->family;
+    constants.family_size = f.size();
+    for (const auto& block : blocks) {
+      const auto& m = block.material;
+      const double c0 = micromodulus_constant(m.micromodulus, m.youngs_modulus, f.horizon, continuum);
+      for (double r : f.length) constants.kernel.push_back(micromodulus(m.micromodulus, c0, r, f.horizon));
+    }
+    return;
+  }
+  const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
+  constants.kernel_of_end.resize(cloud.neighbour.size());
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < body.count(); ++i) {
+    const Material& m = blocks[body.particles.block[i]].material;
+    double horizon = -1.0;
+    double c0 = 0.0;
+    for_each_bond(cloud, i, Which::present, [&](const BondEnd<Dim>& end) {
+      if (end.horizon != horizon) {
+        horizon = end.horizon;
+        c0 = micromodulus_constant(m.micromodulus, m.youngs_modulus, horizon, continuum);
+      }
+      constants.kernel_of_end[end.slot] = micromodulus(m.micromodulus, c0, end.length, end.horizon);
+    });
+  }
+}
+
+template <int Dim>
+double own_kernel(const Body<Dim>& body, const BondConstants& constants, Index i, Offset slot) {
+  return constants.kernel.empty() ? constants.kernel_of_end[slot]
+                                  : constants.kernel[body.particles.block[i] * constants.family_size + slot];
+}
+
+template <int Dim>
+bool alive(const Bonds<Dim>& bonds, Index i, Offset slot) {
+  return std::visit([&](const auto& b) { return is_alive(b, i, slot); }, bonds);
+}
+
+/// f_i = W / ((1/4) sum_j c_i(r) beta r V_j): the family stores the continuum energy of pure dilation.
+template <int Dim>
+void calibrate(BondConstants& constants, const Body<Dim>& body, const std::vector<BlockMaterial>& blocks,
+               bool without_cut, const Where& where) {
+  const Index n = body.count();
+  constants.factor.assign(n, 1.0);
+  Index lonely = -1;
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < n; ++i) {
+    double energy = 0.0;
+    for_each_bond(body.bonds, i, Which::present, [&](const BondEnd<Dim>& end) {
+      // A particle's bond to its own periodic image carries no force, so it has no alive bit, but counts.
+      if (without_cut && end.neighbour != i && !alive(body.bonds, i, end.slot)) return;
+      const Index j = owner(body.bonds, end.neighbour, n);
+      energy += 0.25 * own_kernel(body, constants, i, end.slot) * end.weight * end.length * body.particles.volume[j];
+    });
+    if (energy > 0.0) {
+      constants.factor[i] = blocks[body.particles.block[i]].energy / energy;
+    } else {
+#pragma omp atomic write
+      lonely = i;
+    }
+  }
+  if (lonely >= 0) {
+    invalid_input({"at least one bond at every particle for calibration discrete",
+                   fmt::format("none at particle {}", lonely), "use calibration continuum or a longer horizon", where});
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Body<Dim> build_body(const Model& model, const Sink& sink) {
+  if (model.dimension != Dim) {
+    invalid_input({fmt::format("a model of dimension {}", Dim), fmt::format("{}", model.dimension),
+                   "build the body for the model's dimension", model.where});
+  }
+  require_positive(section_of(model), Dim == 1 ? "body.area" : "body.thickness", model.where);
+  sink.report("particles");
+  Body<Dim> body;
+  body.section = section_of(model);
+  body.particles = make_particles<Dim>(model);
+  sink.report("bonds");
+  body.bonds = make_bonds(model, body.particles);
+
+  const Continuum continuum{Dim, model.plane, body.section};
+  std::vector<BlockMaterial> blocks;
+  for (const auto& name : body.particles.block_names) {
+    const auto it = model.block_materials.find(name);
+    const Material& m = it == model.block_materials.end() ? model.material : it->second;
+    require_positive(m.youngs_modulus, "youngs_modulus", m.where);
+    require_positive(m.density, "density", m.where);
+    blocks.push_back({m, dilation_energy(m.youngs_modulus, continuum)});
+    body.density.push_back(m.density);
+  }
+  for (const auto& [name, material] : model.block_materials) {
+    const auto& names = body.particles.block_names;
+    if (std::find(names.begin() + 1, names.end(), name) == names.end()) {
+      invalid_input({"materials of blocks the body has", fmt::format("'{}'", name), "define the block in body.blocks",
+                     material.where});
+    }
+  }
+
+  const auto cracks = make_cracks<Dim>(model);
+  const double spacing = typical_spacing(body.particles, body.section);
+  set_kernels(body.constants, body, blocks, continuum);
+  if (model.calibration == Calibration::discrete) {
+    calibrate(body.constants, body, blocks, false, model.material.where);
+  }
+  body.cut = cut_bonds(body.bonds, body.particles, cracks, spacing);
+  if (model.calibration == Calibration::discrete_cut) {
+    calibrate(body.constants, body, blocks, true, model.material.where);
+  }
+  sink.report("boundary");
+  body.boundary = make_boundary_map(body.particles, body.bonds, model.boundary);
+  return body;
+}
+
+template <int Dim>
+double bond_stiffness(const Body<Dim>& body, Index i, const BondEnd<Dim>& end) {
+  const Index j = owner(body.bonds, end.neighbour, body.count());
+  const auto& constants = body.constants;
+  const auto& block = body.particles.block;
+  double ci = 0.0;
+  double cj = 0.0;
+  if (!constants.kernel.empty()) {
+    ci = constants.kernel[block[i] * constants.family_size + end.slot];
+    cj = constants.kernel[block[j] * constants.family_size + end.slot];
+  } else {
+    const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
+    const auto row = cloud.neighbour.begin() + cloud.start[j];
+    ci = constants.kernel_of_end[end.slot];
+    cj = block[i] == block[j]
+             ? ci
+             : constants.kernel_of_end[std::lower_bound(row, cloud.neighbour.begin() + cloud.start[j + 1], i) -
+                                       cloud.neighbour.begin()];
+  }
+  if (!constants.factor.empty()) {
+    ci *= constants.factor[i];
+    cj *= constants.factor[j];
+  }
+  double c = 0.5 * (ci + cj);
+  if (block[i] != block[j]) c = ci + cj > 0.0 ? 2.0 * (ci * cj) / (ci + cj) : 0.0;
+  return c * end.weight * (body.particles.volume[i] * body.particles.volume[j]) / end.length;
+}
+
+BodySize estimate_size(const Model& model) {
+  BodySize size;
+  const auto* spec = std::get_if<GridSpec>(&model.particles);
+  if (spec == nullptr) return size;
+  size.particles = 1.0;
+  for (std::size_t a = 0; a < spec->lower.size() && a < spec->upper.size(); ++a) {
+    size.particles *= std::round((spec->upper[a] - spec->lower[a]) / spec->spacing);
+  }
+  const double ratio =
+      model.horizon.rule == HorizonSpec::Rule::ratio ? model.horizon.value : model.horizon.value / spec->spacing;
+  const double pi = 3.14159265358979323846;
+  size.family = model.dimension == 1 ? 2.0 * ratio : model.dimension == 2 ? pi * ratio * ratio : 4.0 / 3.0 * pi * std::pow(ratio, 3);
+  return size;
+}
+
+#define PERIMODE_BODY(D)                                              \
+  template Body<D> build_body<D>(const Model&, const Sink&);          \
+  template double bond_stiffness<D>(const Body<D>&, Index, const BondEnd<D>&)
+PERIMODE_BODY(1);
+PERIMODE_BODY(2);
+PERIMODE_BODY(3);
+#undef PERIMODE_BODY
+
+}  // namespace perimode

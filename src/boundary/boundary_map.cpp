@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/boundary/boundary_map.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace perimode {
+
+namespace {
+
+std::string face_name(const Face& face) { return fmt::format("{}{}", "xyz"[face.axis], face.upper ? '+' : '-'); }
+
+/// Sign of component `component` after one reflection at a wall normal to `axis`; 0 for a zero layer.
+double reflection(WallType type, int axis, int component) {
+  switch (type) {
+    case WallType::odd:
+      return -1.0;
+    case WallType::even:
+      return 1.0;
+    case WallType::mirror:
+      return axis == component ? -1.0 : 1.0;
+    case WallType::antimirror:
+      return axis == component ? 1.0 : -1.0;
+    case WallType::zero_layer:
+    case WallType::surface_nodes:  // set apart: no reflection of the image
+      break;
+  }
+  return 0.0;
+}
+
+template <int Dim>
+std::vector<Index> chosen(const Region& at, const Where& where, const Particles<Dim>& particles) {
+  auto particles_in = select(at, particles);
+  if (particles_in.empty()) {
+    invalid_input({"a region that holds at least one particle", "none", "move or enlarge the region",
+                   at.where.line > 0 ? at.where : where});
+  }
+  return particles_in;
+}
+
+template <int Dim>
+void check_component(int component, const Where& where) {
+  if (component < 0 || component >= Dim) {
+    invalid_input({fmt::format("components of a {}-dimensional body", Dim),
+                   fmt::format("'{}'", component >= 0 && component < 3 ? "xyz"[component] : '?'),
+                   fmt::format("use {}", std::string("x, y, z").substr(0, 3 * Dim - 2)), where});
+  }
+}
+
+/// Surface node at the face: u_ghost = u_s + ratio (u_s - u_p), p the nearest particle [scabbia2023].
+void extrapolate(BoundaryMap<1>& map, std::size_t g, const Ghost<1>& ghost, const Wall& wall,
+                 const Particles<1>& particles) {
+  const Grid<1>& grid = *particles.grid;
+  const double surface = wall.face.upper ? grid.upper()[0] : grid.lower[0];
+  const Index p = wall.face.upper ? particles.count() - 1 : 0;
+  const double ratio = std::abs(ghost.position[0] - surface) / std::abs(particles.position[p][0] - surface);
+  const double given = wall.displacement.empty() ? 0.0 : wall.displacement[0];
+  map.image[g] = p;
+  map.coefficient[g] = -ratio;
+  map.value[g] = (1.0 + ratio) * given;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> BoundaryMap<Dim>::expand(const double* q) const {
+  std::vector<double> u = given;
+  for (std::size_t d = 0; d < u.size(); ++d) {
+    if (free_number[d] >= 0) u[d] = q[free_number[d]];
+  }
+  return u;
+}
+
+template <int Dim>
+std::array<Beyond, 2 * Dim> beyond_faces(const std::vector<BoundaryCondition>& conditions,
+                                         const std::array<bool, 3>& periodic) {
+  std::array<Beyond, 2 * Dim> beyond = {};
+  for (int a = 0; a < Dim; ++a) {
+    if (periodic[a]) beyond[2 * a] = beyond[2 * a + 1] = Beyond::periodic_image;
+  }
+  for (const auto& condition : conditions) {
+    const auto* wall = std::get_if<Wall>(&condition.what);
+    if (wall == nullptr) continue;
+    const Face& face = wall->face;
+    if (face.axis < 0 || face.axis >= Dim) {
+      invalid_input({fmt::format("a wall on a face of a {}-dimensional body", Dim), face_name(face),
+                     "use another face", condition.where});
+    }
+    Beyond& here = beyond[2 * face.axis + (face.upper ? 1 : 0)];
+    if (here == Beyond::periodic_image) {
+      invalid_input({"a wall on an axis that is not periodic", face_name(face),
+                     "remove the wall, or the axis from body.periodic", condition.where});
+    }
+    if (here == Beyond::ghosts) {
+      invalid_input({"one wall per face", fmt::format("a second one on {}", face_name(face)), "remove one",
+                     condition.where});
+    }
+    here = Beyond::ghosts;
+  }
+  return beyond;
+}
+
+template <int Dim>
+BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<Dim>& bonds,
+                                   const std::vector<BoundaryCondition>& conditions) {
+  BoundaryMap<Dim> map;
+  const auto dofs = static_cast<std::size_t>(particles.count()) * Dim;
+  map.given.assign(dofs, 0.0);
+  std::vector<char> state(dofs, 0);  // 0 free, 1 prescribed, 2 fixed
+  std::array<const Wall*, 2 * Dim> walls = {};
+  for (const auto& condition : conditions) {
+    if (const auto* fix = std::get_if<Fix>(&condition.what)) {
+      for (Index i : chosen(fix->at, condition.where, particles)) {
+        for (int c : fix->components) {
+          check_component<Dim>(c, condition.where);
+          state[static_cast<std::size_t>(i) * Dim + c] = 2;
+          map.given[static_cast<std::size_t>(i) * Dim + c] = 0.0;
+        }
+      }
+    } else if (const auto* prescribe = std::get_if<Prescribe>(&condition.what)) {
+      for (Index i : chosen(prescribe->at, condition.where, particles)) {
+        for (const auto& [c, value] : prescribe->components) {
+          check_component<Dim>(c, condition.where);
+          const std::size_t dof = static_cast<std::size_t>(i) * Dim + c;
+          if (state[dof] == 2) continue;
+          state[dof] = 1;
+          map.given[dof] = value;
+        }
+      }
+    } else {
+      const auto& wall = std::get<Wall>(condition.what);
+      if (wall.type == WallType::surface_nodes && Dim != 1) {
+        invalid_input({"surface_nodes in one dimension", fmt::format("dimension {}", Dim),
+                       "use odd, even, mirror, antimirror or zero_layer", condition.where});
+      }
+      walls[2 * wall.face.axis + (wall.face.upper ? 1 : 0)] = &wall;
+    }
+  }
+  map.free_number.assign(dofs, -1);
+  for (std::size_t d = 0; d < dofs; ++d) {
+    if (state[d] == 0) map.free_number[d] = map.free++;
+  }
+
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&bonds)) {
+    const std::size_t n = grid->ghosts.size();
+    map.image.resize(n);
+    map.coefficient.assign(n * Dim, 1.0);
+    map.value.assign(n * Dim, 0.0);
+    for (std::size_t g = 0; g < n; ++g) {
+      const Ghost<Dim>& ghost = grid->ghosts[g];
+      map.image[g] = ghost.image;
+      for (int side = 0; side < 2 * Dim; ++side) {
+        if (ghost.crossings[side] == 0) continue;
+        const Wall& wall = *walls[side];
+        for (int c = 0; c < Dim; ++c) {
+          map.coefficient[g * Dim + c] *= std::pow(reflection(wall.type, side / 2, c), ghost.crossings[side]);
+        }
+      }
+      if constexpr (Dim == 1) {
+        const bool upper = ghost.position[0] > particles.grid->upper()[0];
+        const Wall& nearest = *walls[upper ? 1 : 0];
+        if (nearest.type == WallType::surface_nodes) extrapolate(map, g, ghost, nearest, particles);
+      }
+    }
+  }
+  return map;
+}
+
+template <int Dim>
+BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map) {
+  const auto particle_dofs = static_cast<Index>(map.free_number.size());
+  const auto ghosts = static_cast<Index>(map.image.size());
+  BoundaryMatrices m;
+  m.t = {particle_dofs + ghosts * Dim, map.free, {0}, {}, {}};
+  m.r = {map.free, particle_dofs + ghosts * Dim, {0}, {}, {}};
+  m.g = map.given;
+  const auto add_row = [&](Index free, double coefficient) {
+    if (free >= 0 && coefficient != 0.0) {
+      m.t.column.push_back(free);
+      m.t.value.push_back(coefficient);
+    }
+    m.t.row_start.push_back(static_cast<Offset>(m.t.column.size()));
+  };
+  for (Index d = 0; d < particle_dofs; ++d) {
+    add_row(map.free_number[d], 1.0);
+    if (map.free_number[d] < 0) continue;
+    m.r.column.push_back(d);
+    m.r.value.push_back(1.0);
+    m.r.row_start.push_back(static_cast<Offset>(m.r.column.size()));
+  }
+  for (Index g = 0; g < ghosts; ++g) {
+    for (int c = 0; c < Dim; ++c) {
+      const Index dof = map.image[g] * Dim + c;
+      const double coefficient = map.coefficient[static_cast<std::size_t>(g) * Dim + c];
+      add_row(map.free_number[dof], coefficient);
+      m.g.push_back(map.value[static_cast<std::size_t>(g) * Dim + c] + coefficient * map.given[dof]);
+    }
+  }
+  return m;
+}
+
+#define PERIMODE_BOUNDARY(D)                                                                                     \
+  template struct BoundaryMap<D>;                                                                                \
+  template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&,                      \
+                                                     const std::array<bool, 3>&);                                \
+  template BoundaryMap<D> make_boundary_map<D>(const Particles<D>&, const Bonds<D>&,                             \
+                                               const std::vector<BoundaryCondition>&);                           \
+  template BoundaryMatrices boundary_matrices<D>(const BoundaryMap<D>&)
+PERIMODE_BOUNDARY(1);
+PERIMODE_BOUNDARY(2);
+PERIMODE_BOUNDARY(3);
+#undef PERIMODE_BOUNDARY
+
+}  // namespace perimode

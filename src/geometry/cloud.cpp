@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/geometry/cloud.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <string_view>
+#include <unordered_map>
+
+namespace perimode {
+
+namespace {
+
+struct Field {
+  std::string_view text;  ///< without blanks around it
+  int column;             ///< from 1
+};
+
+std::vector<Field> split(std::string_view line) {
+  std::vector<Field> fields;
+  for (std::size_t start = 0;;) {
+    const std::size_t comma = std::min(line.find(',', start), line.size());
+    std::size_t first = start;
+    std::size_t last = comma;
+    const auto blank = [&](std::size_t i) { return line[i] == ' ' || line[i] == '\t'; };
+    while (first < last && blank(first)) ++first;
+    while (last > first && blank(last - 1)) --last;
+    fields.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
+    if (comma == line.size()) return fields;
+    start = comma + 1;
+  }
+}
+
+class CloudReader {
+ public:
+  CloudReader(const std::filesystem::path& file, int dimension) : file_(file.string()) {
+    data_.dimension = dimension;
+  }
+
+  CloudData read(std::string_view text) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    while (!text.empty()) {
+      ++line_;
+      const std::size_t end = std::min(text.find('\n'), text.size());
+      std::string_view line = text.substr(0, end);
+      text.remove_prefix(std::min(end + 1, text.size()));
+      if (line.ends_with('\r')) line.remove_suffix(1);
+      if (line_ == 1) {
+        read_header(line);
+      } else if (line.find_first_not_of(" \t") != std::string_view::npos) {
+        read_particle(line);
+      }
+    }
+    if (data_.count() == 0) {
+      complain("at least one particle", line_ == 0 ? "an empty file" : "none",
+               "the first line is " + header(false), {line_, 1});
+    }
+    require_distinct();
+    return std::move(data_);
+  }
+
+ private:
+  struct Place {
+    int line, column;
+  };
+
+  [[noreturn]] void complain(const std::string& expected, const std::string& got, const std::string& remedy,
+                             Place place) const {
+    invalid_input({expected, got, remedy, {file_, std::max(place.line, 1), place.column}});
+  }
+
+  [[nodiscard]] std::string header(bool with_block) const {
+    return std::string("x,y,z").substr(0, 2 * data_.dimension - 1) +
+           (with_block ? ",volume,block" : ",volume");
+  }
+
+  void read_header(std::string_view line) {
+    std::vector<std::string_view> names;
+    for (const Field& field : split(line)) names.push_back(field.text);
+    const std::string given = fmt::format("{}", fmt::join(names, ","));
+    with_block_ = given == header(true);
+    if (!with_block_ && given != header(false)) {
+      complain(fmt::format("the header {} or {} of a body of dimension {}", header(false), header(true),
+                           data_.dimension),
+               fmt::format("'{}'", given.substr(0, 60)), "change the first line", {1, 1});
+    }
+  }
+
+  double number(const Field& field, std::string_view name) const {
+    std::string_view text = field.text;
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    double value = 0.0;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+      complain(fmt::format("a finite number for {}", name), fmt::format("'{}'", field.text.substr(0, 60)),
+               "write a plain SI number with a decimal point", {line_, field.column});
+    }
+    return value;
+  }
+
+  void read_particle(std::string_view line) {
+    const std::vector<Field> fields = split(line);
+    const auto dimension = static_cast<std::size_t>(data_.dimension);
+    const std::size_t wanted = dimension + 1 + (with_block_ ? 1 : 0);
+    if (fields.size() != wanted) {
+      complain(fmt::format("{} fields ({})", wanted, header(with_block_)), fmt::format("{}", fields.size()),
+               "separate fields by commas", {line_, fields[std::min(fields.size() - 1, wanted)].column});
+    }
+    if (data_.count() >= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+      complain("fewer than 2^31 particles", "more", "use fewer", {line_, 1});
+    }
+    for (std::size_t a = 0; a < dimension; ++a)
+      data_.position.push_back(number(fields[a], std::string_view("xyz").substr(a, 1)));
+    const double volume = number(fields[dimension], "volume");
+    if (!(volume > 0.0)) {
+      complain("a volume > 0 in m3", fmt::format("{}", volume),
+               "give the particle's cell volume, thickness or area included",
+               {line_, fields[dimension].column});
+    }
+    data_.volume.push_back(volume);
+    data_.block.push_back(with_block_ ? block_number(fields.back().text) : -1);
+    line_of_.push_back(line_);
+  }
+
+  int block_number(std::string_view name) {
+    if (name.empty()) return -1;
+    const auto [entry, is_new] =
+        block_of_.try_emplace(std::string(name), static_cast<int>(data_.block_names.size()));
+    if (is_new) data_.block_names.emplace_back(name);
+    return entry->second;
+  }
+
+  void require_distinct() const {
+    const auto d = static_cast<std::size_t>(data_.dimension);
+    const auto at = [&](std::size_t i) {
+      return data_.position.begin() + static_cast<std::ptrdiff_t>(d * i);
+    };
+    std::vector<std::size_t> order(data_.count());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+      const auto order_ij = std::lexicographical_compare_three_way(at(i), at(i + 1), at(j), at(j + 1));
+      return order_ij != 0 ? order_ij < 0 : i < j;
+    });
+    for (std::size_t k = 1; k < order.size(); ++k) {
+      if (std::equal(at(order[k]), at(order[k] + 1), at(order[k - 1]))) {
+        complain("every particle at a point of its own",
+                 fmt::format("the point of line {} again", line_of_[order[k - 1]]), "remove one of the two",
+                 {line_of_[order[k]], 1});
+      }
+    }
+  }
+
+  std::string file_;
+  CloudData data_;
+  bool with_block_ = false;
+  int line_ = 0;
+  std::vector<int> line_of_;
+  std::unordered_map<std::string, int> block_of_;
+};
+
+}  // namespace
+
+CloudData read_cloud(const std::filesystem::path& file, int dimension) {
+  std::error_code code;
+  std::ifstream stream(file, std::ios::binary);
+  if (!std::filesystem::is_regular_file(file, code) || !stream) {
+    invalid_input({"a readable CSV file of particles", "none", "check the path", {file.string()}});
+  }
+  std::ostringstream content;
+  content << stream.rdbuf();
+  return CloudReader(file, dimension).read(std::move(content).str());
+}
+
+}  // namespace perimode

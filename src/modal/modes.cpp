@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/modal/modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/modal/rigid.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr double symmetric_to_round_off = 1e-12;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double to_eigenvalue(double hz) { return std::pow(2.0 * std::numbers::pi * hz, 2); }
+
+/// The order of the first elastic eigenvalue, (c/L)^2: the largest is about (4 c/delta)^2, so scaling it by
+/// (delta/(4 L))^2 needs no material data.
+template <int Dim>
+double eigenvalue_scale(const Body<Dim>& body, double largest) {
+  Point<Dim> low = body.particles.position[0];
+  Point<Dim> high = low;
+  for (const auto& x : body.particles.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  double horizon = 0.0;
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
+    horizon = grid->family.horizon;
+  } else {
+    for (double h : std::get<CloudBonds<Dim>>(body.bonds).horizon) horizon = std::max(horizon, h);
+  }
+  const double side = std::max((high - low).maxCoeff(), horizon);
+  return largest > 0.0 && side > 0.0 ? largest * std::pow(horizon / (4.0 * side), 2) : 1.0;
+}
+
+struct Problem {
+  Csr stiffness;
+  Eigen::VectorXd mass;
+  std::vector<Index> particle;
+};
+
+/// Modes merged from deflated rigid motions and what the solver returned.
+struct Pairs {
+  std::vector<double> value;
+  std::vector<Eigen::VectorXd> vector;
+  std::vector<ModeKind> kind;
+};
+
+/// Elastic pairs besides `rigid` deflated motions.
+EigenResult solve_symmetric(const EigenProblem& problem, EigenOptions wanted, const ModalOptions& options,
+                            Eigen::Index rigid, const Sink& sink) {
+  const Eigen::Index elastic = problem.mass->size() - rigid;
+  if (!options.shift) return solve_eigen(problem, wanted, sink);
+  // The nearest in Hz lie within the eigenvalues nearest to the shift up to the distance that set covers upward.
+  const double f0 = *options.shift;
+  for (Eigen::Index count = wanted.count;; count *= 2) {
+    wanted.count = static_cast<int>(std::min(count, elastic));
+    EigenResult r = solve_eigen(problem, wanted, sink);
+    if (r.value.size() < wanted.count || wanted.count == elastic) return r;
+    const double radius = (r.value.array() - wanted.shift).abs().maxCoeff();
+    const double covered = std::sqrt(wanted.shift + radius) / (2.0 * std::numbers::pi) - f0;
+    const auto inside = (r.value.array().max(0.0).sqrt() / (2.0 * std::numbers::pi) - f0).abs() <= covered * (1.0 + 1e-12);
+    if (inside.count() >= std::min<Eigen::Index>(*options.modes, elastic)) return r;
+  }
+}
+
+EigenEngine engine_of(ModalSolver solver) {
+  switch (solver) {
+    case ModalSolver::lanczos:
+      return EigenEngine::lanczos;
+    case ModalSolver::arpack:
+      return EigenEngine::arpack;
+    case ModalSolver::dense:
+      return EigenEngine::dense;
+    case ModalSolver::automatic:
+      break;
+  }
+  return EigenEngine::automatic;
+}
+
+CompletenessCheck check_of(CertificateMethod method) {
+  switch (method) {
+    case CertificateMethod::inertia:
+      return CompletenessCheck::inertia;
+    case CertificateMethod::restart:
+      return CompletenessCheck::restart;
+    case CertificateMethod::none:
+      return CompletenessCheck::none;
+    case CertificateMethod::automatic:
+      break;
+  }
+  return CompletenessCheck::automatic;
+}
+
+EigenOptions eigen_options(const ModalOptions& options, Eigen::Index rigid, Eigen::Index dofs, double scale) {
+  EigenOptions wanted;
+  const auto asked = static_cast<Eigen::Index>(options.modes.value_or(20));
+  wanted.engine = engine_of(options.solver);
+  wanted.check = check_of(options.certificate);
+  wanted.block_size = options.block_size;
+  wanted.scale = scale;
+  if (options.range) {
+    wanted.has_range = true;
+    wanted.lower = to_eigenvalue(options.range->first);
+    wanted.upper = to_eigenvalue(options.range->second);
+  } else if (options.shift) {
+    wanted.has_shift = true;
+    wanted.shift = to_eigenvalue(*options.shift);
+    wanted.count = static_cast<int>(std::min(asked, dofs - rigid));
+  } else {
+    wanted.count = static_cast<int>(std::clamp<Eigen::Index>(asked - rigid, 0, dofs - rigid));
+  }
+  return wanted;
+}
+
+void sort_and_trim(Pairs& pairs, const ModalOptions& options) {
+  std::vector<std::size_t> order(pairs.value.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  const auto keep = static_cast<std::size_t>(options.modes.value_or(20));
+  if (options.shift && order.size() > keep) {
+    const auto distance = [&](std::size_t k) {
+      return std::abs(std::sqrt(std::max(pairs.value[k], 0.0)) / (2.0 * std::numbers::pi) - *options.shift);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+    order.resize(keep);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) {
+    const bool rigid_a = pairs.kind[a] == ModeKind::rigid;
+    const bool rigid_b = pairs.kind[b] == ModeKind::rigid;
+    return rigid_a != rigid_b ? rigid_a : pairs.value[a] < pairs.value[b];
+  });
+  if (!options.range && order.size() > keep) order.resize(keep);
+  Pairs sorted;
+  for (std::size_t k : order) {
+    sorted.value.push_back(pairs.value[k]);
+    sorted.vector.push_back(std::move(pairs.vector[k]));
+    sorted.kind.push_back(pairs.kind[k]);
+  }
+  pairs = std::move(sorted);
+}
+
+/// The stated sign: the first among the largest components is positive.
+void fix_sign(Eigen::Ref<Eigen::VectorXd> x) {
+  const double top = x.cwiseAbs().maxCoeff();
+  for (Eigen::Index d = 0; d < x.size(); ++d) {
+    if (std::abs(x[d]) < top * (1.0 - 1e-6)) continue;
+    if (x[d] < 0.0) x = -x;
+    return;
+  }
+}
+
+template <int Dim>
+Eigen::MatrixXd translations(const Body<Dim>& body) {
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(body.boundary.free, Dim);
+  for (std::size_t d = 0; d < body.boundary.free_number.size(); ++d) {
+    const Index number = body.boundary.free_number[d];
+    if (number >= 0) r(number, static_cast<int>(d % Dim)) = 1.0;
+  }
+  return r;
+}
+
+/// Displacements of all particle dofs in a mode: the free ones move, the others stay.
+template <int Dim>
+std::vector<double> motion_of(const Body<Dim>& body, const Eigen::VectorXd& x) {
+  std::vector<double> u(body.boundary.free_number.size(), 0.0);
+  for (std::size_t d = 0; d < u.size(); ++d) {
+    if (body.boundary.free_number[d] >= 0) u[d] = x[body.boundary.free_number[d]];
+  }
+  return u;
+}
+
+template <int Dim>
+void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, Pairs&& pairs) {
+  const auto modes = static_cast<Eigen::Index>(pairs.value.size());
+  result.kind = pairs.kind;
+  result.eigenvalue = Eigen::Map<Eigen::VectorXd>(pairs.value.data(), modes);
+  result.shape.resize(problem.mass.size(), modes);
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    result.shape.col(k) = pairs.vector[k];
+    pairs.vector[k] = {};
+    if (result.left.cols() == 0) fix_sign(result.shape.col(k));
+  }
+  result.angular_frequency = result.eigenvalue.array().max(0.0).sqrt();
+  result.frequency_hz = result.angular_frequency / (2.0 * std::numbers::pi);
+  result.rigid_modes = static_cast<int>(std::count(result.kind.begin(), result.kind.end(), ModeKind::rigid)) - result.mechanisms;
+
+  const Eigen::MatrixXd kx = multiply(problem.stiffness, result.shape);
+  const double k_norm = norm_inf(problem.stiffness);
+  const Eigen::MatrixXd mr = problem.mass.asDiagonal() * translations(body);
+  const Eigen::MatrixXd right = result.shape.transpose() * mr;
+  result.effective_mass = result.left.cols() == 0 ? Eigen::MatrixXd(right.array().square())
+                                                  : Eigen::MatrixXd(right.array() * (result.left.transpose() * mr).array());
+  result.residual.resize(modes);
+  for (Eigen::Index k = 0; k < modes; ++k) {
+    const Eigen::VectorXd mx = problem.mass.cwiseProduct(result.shape.col(k));
+    result.residual[k] = result.kind[k] == ModeKind::rigid
+                             ? kx.col(k).norm() / (k_norm * result.shape.col(k).norm())
+                             : (kx.col(k) - result.eigenvalue[k] * mx).norm() / (std::abs(result.eigenvalue[k]) * mx.norm());
+  }
+}
+
+template <int Dim>
+void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
+                          const ModalOptions& options, double scale, const Sink& sink) {
+  sink.report("rigid modes");
+  const Eigen::MatrixXd rigid = rigid_modes(body, problem.stiffness, problem.mass);
+  EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
+  wanted.negative_shift = -1e-2 * scale;
+  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle, rigid.cols() > 0 ? &rigid : nullptr};
+
+  Pairs pairs;
+  const bool want_rigid = !options.range || options.range->first <= 0.0;
+  for (Eigen::Index k = 0; want_rigid && k < rigid.cols(); ++k) {
+    pairs.value.push_back(0.0);
+    pairs.vector.emplace_back(rigid.col(k));
+    pairs.kind.push_back(ModeKind::rigid);
+  }
+  if (wanted.count == 0 && !wanted.has_range) {
+    result.status = EigenStatus::converged;
+    result.solver = "rigid motions";
+    result.certificate = {true, true, "all rigid motions", static_cast<Offset>(rigid.cols()), 0.0, 0.0, 0};
+  } else {
+    EigenResult r = solve_symmetric(eigen, wanted, options, rigid.cols(), sink);
+    result.status = r.status;
+    result.message = r.message;
+    result.solver = r.engine;
+    result.certificate = r.certificate;
+    result.shift = r.shift;
+    result.solves = r.solves;
+    result.factor_nonzeros = r.factor_nonzeros;
+    result.seconds_analyse = r.seconds_analyse;
+    result.seconds_factor = r.seconds_factor;
+    result.seconds_iterate = r.seconds_iterate;
+    for (Eigen::Index k = 0; k < r.value.size(); ++k) {
+      const Eigen::VectorXd x = r.vector.col(k);
+      const double norm2 = x.dot(problem.mass.cwiseProduct(x));
+      const double value = 2.0 * bond_energy(body, motion_of(body, x)) / norm2;
+      const bool zero = value <= 1e-14 * result.largest;
+      if (zero) ++result.mechanisms;
+      pairs.value.push_back(zero ? 0.0 : value);
+      pairs.vector.emplace_back(x / std::sqrt(norm2));
+      pairs.kind.push_back(zero ? ModeKind::rigid : ModeKind::elastic);
+    }
+  }
+  sort_and_trim(pairs, options);
+  finish(result, body, problem, std::move(pairs));
+  if (result.mechanisms > 0) {
+    sink.warn(fmt::format("{} zero-energy mode{} that {} no rigid motion: the bonds do not hold the body together (a "
+                          "horizon below 2 spacings, a particle or strip on too few bonds)",
+                          result.mechanisms, result.mechanisms == 1 ? "" : "s", result.mechanisms == 1 ? "is" : "are"));
+  }
+}
+
+template <int Dim>
+void solve_unsymmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
+                            const ModalOptions& options, double scale, const Sink& sink) {
+  EigenOptions wanted = eigen_options(options, 0, problem.mass.size(), scale);
+  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle, nullptr};
+  UnsymmetricEigenResult r = solve_unsymmetric(eigen, wanted, sink);
+  result.status = r.status;
+  result.message = r.message;
+  result.solver = r.engine;
+  result.certificate = r.certificate;
+  result.solves = r.solves;
+  result.imaginary = r.imaginary;
+  result.largest = r.largest;
+  result.seconds_factor = r.seconds_factor;
+  result.seconds_iterate = r.seconds_iterate;
+  if (r.imaginary > 1e-8) {
+    result.status = EigenStatus::not_converged;
+    result.message = fmt::format("eigenvalues are not real: max |Im lambda| / max |lambda| = {:.2e}", r.imaginary);
+  }
+  Pairs pairs;
+  std::vector<Eigen::VectorXd> left;
+  for (Eigen::Index k = 0; k < r.value.size(); ++k) {
+    // A real eigenvalue's vectors are real up to a complex factor; turn the largest component real.
+    Eigen::Index top = 0;
+    r.right.col(k).cwiseAbs().maxCoeff(&top);
+    const std::complex<double> turn = std::abs(r.right(top, k)) / r.right(top, k);
+    Eigen::VectorXd x = (r.right.col(k) * turn).real();
+    x /= std::sqrt(x.dot(problem.mass.cwiseProduct(x)));
+    Eigen::Index top_left = 0;
+    r.left.col(k).cwiseAbs().maxCoeff(&top_left);
+    Eigen::VectorXd y = (r.left.col(k) * (std::abs(r.left(top_left, k)) / r.left(top_left, k))).real();
+    y /= y.dot(problem.mass.cwiseProduct(x));
+    const double value = r.value[k].real();
+    const bool zero = std::abs(value) <= 1e-12 * r.largest;
+    pairs.value.push_back(zero ? 0.0 : value);
+    pairs.vector.push_back(std::move(x));
+    pairs.kind.push_back(zero ? ModeKind::rigid : ModeKind::elastic);
+    left.push_back(std::move(y));
+  }
+  result.left.resize(problem.mass.size(), static_cast<Eigen::Index>(left.size()));
+  for (std::size_t k = 0; k < left.size(); ++k) result.left.col(static_cast<Eigen::Index>(k)) = left[k];
+  finish(result, body, problem, std::move(pairs));
+}
+
+}  // namespace
+
+template <int Dim>
+ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, const Sink& sink) {
+  const Index dofs = body.boundary.free;
+  if (dofs == 0) {
+    invalid_input({"at least one free degree of freedom", "none", "fix fewer particles or components", {}});
+  }
+  if (options.modes && (*options.modes < 1 || *options.modes > dofs)) {
+    invalid_input({fmt::format("analysis.modal.modes between 1 and the body's {} degrees of freedom", dofs),
+                   fmt::format("{}", *options.modes), "ask for fewer modes", {}});
+  }
+  ModalOptions wanted = options;
+  if (!wanted.modes && !wanted.range) wanted.modes = std::min<Index>(20, dofs);
+
+  ModalResult result;
+  const auto start = std::chrono::steady_clock::now();
+  sink.report("assembling");
+  Problem problem;
+  problem.stiffness = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  problem.mass = lumped_mass(body);
+  problem.particle = particle_of_free_dof(body);
+  result.nonzeros = problem.stiffness.nonzeros();
+  result.asymmetry = asymmetry(problem.stiffness);
+  result.largest = norm_inf(problem.stiffness) / problem.mass.minCoeff();
+  result.seconds_assemble = seconds_since(start);
+  const double scale = eigenvalue_scale(body, result.largest);
+
+  if (result.asymmetry <= symmetric_to_round_off) {
+    solve_symmetric_body(result, body, problem, wanted, scale, sink);
+  } else {
+    solve_unsymmetric_body(result, body, problem, wanted, scale, sink);
+  }
+  return result;
+}
+
+Eigen::MatrixXd modal_assurance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::VectorXd& mass) {
+  const Eigen::MatrixXd cross = a.transpose() * mass.asDiagonal() * b;
+  const Eigen::VectorXd na = (a.array().square().matrix().transpose() * mass);
+  const Eigen::VectorXd nb = (b.array().square().matrix().transpose() * mass);
+  return cross.array().square() / (na * nb.transpose()).array();
+}
+
+template ModalResult solve_modes<1>(const Body<1>&, const ModalOptions&, const Sink&);
+template ModalResult solve_modes<2>(const Body<2>&, const ModalOptions&, const Sink&);
+template ModalResult solve_modes<3>(const Body<3>&, const ModalOptions&, const Sink&);
+
+}  // namespace perimode

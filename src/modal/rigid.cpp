@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/modal/rigid.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "perimode/bonds/connectivity.hpp"
+
+namespace perimode {
+
+namespace {
+
+template <int Dim>
+constexpr int motions = Dim * (Dim + 1) / 2;
+
+/// Component a of rigid motion k (translations first, then rotations) at x from the piece's centre.
+template <int Dim>
+double motion(int k, int a, const Point<Dim>& x) {
+  if (k < Dim) return k == a ? 1.0 : 0.0;
+  if constexpr (Dim == 2) return a == 0 ? -x[1] : x[0];
+  if constexpr (Dim == 3) {  // e_r x x
+    const int r = k - 3;
+    if (a == (r + 1) % 3) return -x[(r + 2) % 3];
+    if (a == (r + 2) % 3) return x[(r + 1) % 3];
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+template <int Dim>
+Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const Eigen::VectorXd& mass) {
+  constexpr int R = motions<Dim>;
+  using Small = Eigen::Matrix<double, R, R>;
+  const Index n = body.count();
+  const Pieces pieces = find_pieces(body.bonds, n);
+
+  std::vector<Point<Dim>> centre(pieces.count, Point<Dim>::Zero());
+  std::vector<double> members(pieces.count, 0.0);
+  for (Index i = 0; i < n; ++i) {
+    centre[pieces.of[i]] += body.particles.position[i];
+    members[pieces.of[i]] += 1.0;
+  }
+  for (Index p = 0; p < pieces.count; ++p) centre[p] /= members[p];
+
+  // All pieces at once: column k holds motion k of every piece, as K couples no two pieces.
+  Eigen::MatrixXd q = Eigen::MatrixXd::Zero(mass.size(), R);
+  std::vector<Index> piece_of_dof(mass.size());
+  for (Index i = 0; i < n; ++i) {
+    for (int a = 0; a < Dim; ++a) {
+      const Index d = body.boundary.free_number[static_cast<std::size_t>(i) * Dim + a];
+      if (d < 0) continue;
+      piece_of_dof[d] = pieces.of[i];
+      const Point<Dim> x = body.particles.position[i] - centre[pieces.of[i]];
+      for (int k = 0; k < R; ++k) q(d, k) = motion<Dim>(k, a, x);
+    }
+  }
+  const Eigen::MatrixXd kq = multiply(stiffness, q);
+
+  // Per piece: among combinations c with |q c|_M = 1, those with |K q c|_{M^-1} at round-off.
+  std::vector<Small> gram(pieces.count, Small::Zero());
+  std::vector<Small> force(pieces.count, Small::Zero());
+  for (Index d = 0; d < mass.size(); ++d) {
+    gram[piece_of_dof[d]] += mass[d] * q.row(d).transpose() * q.row(d);
+    force[piece_of_dof[d]] += kq.row(d).transpose() * kq.row(d) / mass[d];
+  }
+  const double largest = norm_inf(stiffness) / std::max(mass.minCoeff(), 1e-300);  // bounds lambda_max
+  struct Found {
+    Index piece;
+    Eigen::Matrix<double, R, 1> combination;
+  };
+  std::vector<Found> found;
+  for (Index p = 0; p < pieces.count; ++p) {
+    // Motions scaled to unit kinetic size first, so that a rotation is not lost beside a translation.
+    Small unit = Small::Zero();
+    for (int k = 0; k < R; ++k) {
+      const double size = std::sqrt(gram[p](k, k));
+      if (size > 0.0) unit(k, k) = 1.0 / size;
+    }
+    const Eigen::SelfAdjointEigenSolver<Small> metric(unit * gram[p] * unit);
+    Eigen::Matrix<double, R, Eigen::Dynamic> basis(R, 0);
+    for (int k = 0; k < R; ++k) {
+      if (metric.eigenvalues()[k] <= 1e-10) continue;  // not an own motion of this piece (a lone particle's rotation)
+      basis.conservativeResize(R, basis.cols() + 1);
+      basis.col(basis.cols() - 1) = unit * metric.eigenvectors().col(k) / std::sqrt(metric.eigenvalues()[k]);
+    }
+    const Eigen::MatrixXd energy = basis.transpose() * force[p] * basis;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> null(energy);
+    for (Eigen::Index k = 0; k < energy.rows(); ++k) {
+      // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free ones.
+      if (null.eigenvalues()[k] <= std::pow(1e-7 * largest, 2)) found.push_back({p, basis * null.eigenvectors().col(k)});
+    }
+  }
+  Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(mass.size(), static_cast<Eigen::Index>(found.size()));
+  for (Index d = 0; d < mass.size(); ++d) {
+    for (std::size_t m = 0; m < found.size(); ++m) {
+      if (found[m].piece == piece_of_dof[d]) modes(d, static_cast<Eigen::Index>(m)) = q.row(d).dot(found[m].combination.transpose());
+    }
+  }
+  return modes;
+}
+
+template Eigen::MatrixXd rigid_modes<1>(const Body<1>&, const Csr&, const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<2>(const Body<2>&, const Csr&, const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<3>(const Body<3>&, const Csr&, const Eigen::VectorXd&);
+
+}  // namespace perimode
