@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "perimode/assembly/model.hpp"
+
+namespace perimode::test {
+
+/// Box [0, cells * spacing] with E = rho = 1 and a constant kernel; tests change what they need.
+inline Model box_model(const std::vector<int>& cells, double spacing, double ratio) {
+  Model m;
+  m.dimension = static_cast<int>(cells.size());
+  GridSpec grid;
+  grid.spacing = spacing;
+  for (int n : cells) {
+    grid.lower.push_back(0.0);
+    grid.upper.push_back(n * spacing);
+  }
+  m.particles = grid;
+  m.horizon = {HorizonSpec::Rule::ratio, ratio, {}};
+  m.material.youngs_modulus = 1.0;
+  m.material.density = 1.0;
+  return m;
+}
+
+inline void add_wall(Model& m, int axis, bool upper, WallType type) {
+  m.boundary.push_back({Wall{{axis, upper}, type, {}}, {}});
+}
+
+/// The same wall on both faces of an axis.
+inline void add_walls(Model& m, int axis, WallType type) {
+  add_wall(m, axis, false, type);
+  add_wall(m, axis, true, type);
+}
+
+inline void fix_face(Model& m, int axis, bool upper, int layers, std::vector<int> components) {
+  m.boundary.push_back({Fix{std::move(components), Region{FaceRegion{{axis, upper}, layers, 0.0}, {}}}, {}});
+}
+
+inline void add_crack(Model& m, std::vector<Coordinates> points) { m.precracks.push_back({std::move(points), {}}); }
+
+}  // namespace perimode::test
