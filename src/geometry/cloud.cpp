@@ -12,7 +12,6 @@
 #include <numeric>
 #include <sstream>
 #include <string_view>
-#include <unordered_map>
 
 namespace perimode {
 
@@ -125,16 +124,8 @@ class CloudReader {
                {line_, fields[dimension].column});
     }
     data_.volume.push_back(volume);
-    data_.block.push_back(with_block_ ? block_number(fields.back().text) : -1);
+    if (with_block_) data_.block.emplace_back(fields.back().text);
     line_of_.push_back(line_);
-  }
-
-  int block_number(std::string_view name) {
-    if (name.empty()) return -1;
-    const auto [entry, is_new] =
-        block_of_.try_emplace(std::string(name), static_cast<int>(data_.block_names.size()));
-    if (is_new) data_.block_names.emplace_back(name);
-    return entry->second;
   }
 
   void require_distinct() const {
@@ -162,7 +153,6 @@ class CloudReader {
   bool with_block_ = false;
   int line_ = 0;
   std::vector<int> line_of_;
-  std::unordered_map<std::string, int> block_of_;
 };
 
 }  // namespace

@@ -12,10 +12,9 @@ namespace perimode {
 /// Particles of a CSV file, before the dimension is fixed at compile time.
 struct CloudData {
   int dimension = 0;
-  std::vector<double> position;          ///< dimension numbers per particle, m
-  std::vector<double> volume;            ///< m3, the true one (thickness or area included), > 0
-  std::vector<int> block;                ///< index into block_names; -1 = none; one per particle
-  std::vector<std::string> block_names;  ///< in order of first appearance
+  std::vector<double> position;    ///< dimension numbers per particle, m
+  std::vector<double> volume;      ///< m3, the true one (thickness or area included), > 0
+  std::vector<std::string> block;  ///< block name per particle, "" = none; empty without that column
 
   [[nodiscard]] std::size_t count() const { return volume.size(); }
 };

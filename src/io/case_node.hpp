@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "perimode/core/error.hpp"
+
+namespace perimode::case_file {
+
+/// One value of a case file with the place it stands at. Anchors are resolved, and no map holds a
+/// key twice.
+struct CaseNode {
+  enum class Kind { null, scalar, sequence, map };
+  Kind kind = Kind::null;
+  std::string text = {};  ///< scalar
+  Where where = {};
+  std::vector<CaseNode> children = {};  ///< sequence and map, in file order
+  std::string key = {};                 ///< of a map's child
+  Where key_where = {};
+
+  /// The child of a map, or null.
+  [[nodiscard]] const CaseNode* find(std::string_view name) const;
+};
+
+/// Reads YAML (JSON is a part of it). Throws invalid_input: unreadable or no file, no text, syntax
+/// errors, several documents, duplicate or non-text keys, anchors that contain themselves.
+[[nodiscard]] CaseNode load_case_tree(const std::filesystem::path& file);
+
+/// The value of YAML text; every place of it is `where` where that has no line.
+[[nodiscard]] CaseNode parse_case_text(const std::string& text, const Where& where);
+
+/// Sets the value at a dotted path from "key=value", creating what is missing on the way.
+void apply_override(CaseNode& root, const std::string& key_value);
+
+/// "'210 GPa'", "a list of 2", "a map", "nothing".
+[[nodiscard]] std::string describe(const CaseNode& node);
+
+}  // namespace perimode::case_file

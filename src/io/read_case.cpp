@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/case_sections.hpp"
+#include "perimode/io/case.hpp"
+
+namespace perimode {
+
+Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  using namespace case_file;
+  CaseNode tree = load_case_tree(file);
+  for (const std::string& text : overrides) apply_override(tree, text);
+
+  const Section root(Cursor(tree, ""), {"title", "body", "material", "materials", "boundary", "analysis",
+                                        "output", "kinematics"});
+  Case result;
+  result.file = file;
+  if (const auto title = root.find("title")) result.title = title->text("a plate");
+  read_body(root.need("body", "{ dimension: 2, ... }"), file.parent_path(), result.model);
+  read_materials(root.need("material", "{ youngs_modulus: 210.0e+9, density: 7850 }"), root.find("materials"),
+                 result.model);
+  check_horizon(result.model);
+  if (const auto boundary = root.find("boundary")) read_boundary(*boundary, result.model);
+  check_block_names(result.model);
+  if (const auto kinematics = root.find("kinematics")) {
+    (void)kinematics->choice<bool>({{"linear", false}, {"large_rotation", true}});
+  }
+  if (const auto analysis = root.find("analysis")) read_analysis(*analysis, result);
+  if (const auto output = root.find("output")) result.output = read_output(*output);
+  return result;
+}
+
+}  // namespace perimode
