@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "reference/quadrature.hpp"
 
@@ -102,16 +101,22 @@ Eigen::VectorXd plane_wave(std::span<const Point<Dim>> positions, const Point<Di
   return u;
 }
 
-#define PERIMODE_INSTANTIATE(Dim)                                                                           \
-  template double calibration_factor<Dim>(const Medium&, const Family<Dim>&);                               \
-  template std::vector<double> bond_rates<Dim>(const Medium&, const Family<Dim>&, Calibration);             \
-  template Eigen::Matrix<double, Dim, Dim> lattice_symbol<Dim>(const Family<Dim>&, std::span<const double>, \
-                                                               const Point<Dim>&);                          \
-  template Eigen::VectorXd plane_wave<Dim>(std::span<const Point<Dim>>, const Point<Dim>&,                  \
-                                           const Point<Dim>&, double);
-PERIMODE_INSTANTIATE(1)
-PERIMODE_INSTANTIATE(2)
-PERIMODE_INSTANTIATE(3)
-#undef PERIMODE_INSTANTIATE
+template double calibration_factor<1>(const Medium&, const Family<1>&);
+template std::vector<double> bond_rates<1>(const Medium&, const Family<1>&, Calibration);
+template Eigen::Matrix<double, 1, 1> lattice_symbol<1>(const Family<1>&, std::span<const double>,
+                                                       const Point<1>&);
+template Eigen::VectorXd plane_wave<1>(std::span<const Point<1>>, const Point<1>&, const Point<1>&, double);
+
+template double calibration_factor<2>(const Medium&, const Family<2>&);
+template std::vector<double> bond_rates<2>(const Medium&, const Family<2>&, Calibration);
+template Eigen::Matrix<double, 2, 2> lattice_symbol<2>(const Family<2>&, std::span<const double>,
+                                                       const Point<2>&);
+template Eigen::VectorXd plane_wave<2>(std::span<const Point<2>>, const Point<2>&, const Point<2>&, double);
+
+template double calibration_factor<3>(const Medium&, const Family<3>&);
+template std::vector<double> bond_rates<3>(const Medium&, const Family<3>&, Calibration);
+template Eigen::Matrix<double, 3, 3> lattice_symbol<3>(const Family<3>&, std::span<const double>,
+                                                       const Point<3>&);
+template Eigen::VectorXd plane_wave<3>(std::span<const Point<3>>, const Point<3>&, const Point<3>&, double);
 
 }  // namespace perimode
