@@ -90,7 +90,7 @@ void plain_columns(const B& bonds, Index i, Index* column) {
 template <int Dim>
 void add_outer(double* block, double k, const Point<Dim>& n) {
   for (int a = 0; a < Dim; ++a) {
-    for (int b = 0; b < Dim; ++b) block[a * Dim + b] += k * n[a] * n[b];
+    for (int b = 0; b < Dim; ++b) block[a * Dim + b] += k * (n[a] * n[b]);
   }
 }
 
@@ -117,7 +117,7 @@ void fill_row(const Body<Dim>& body, BlockCsr& m, Index i) {
     double* target = block(j);
     const double* coefficient = body.boundary.coefficient.data() + static_cast<std::size_t>(end.neighbour - n) * Dim;
     for (int a = 0; a < Dim; ++a) {
-      for (int b = 0; b < Dim; ++b) target[a * Dim + b] -= k * e[a] * e[b] * coefficient[b];
+      for (int b = 0; b < Dim; ++b) target[a * Dim + b] -= k * (e[a] * e[b]) * coefficient[b];
     }
   });
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -31,7 +32,7 @@ Particles<Dim> cloud_particles(const CloudSpec& spec) {
   for (std::size_t i = 0; i < data.volume.size(); ++i) {
     p.position.push_back(Eigen::Map<const Point<Dim>>(data.position.data() + i * Dim));
     p.volume.push_back(data.volume[i]);
-    const std::string name = data.block.empty() ? "" : data.block[i];
+    const std::string name = data.block.empty() ? std::string() : data.block[i];
     const auto [it, fresh] = number.emplace(name, static_cast<int>(p.block_names.size()));
     if (fresh) p.block_names.push_back(name);
     p.block.push_back(it->second);
