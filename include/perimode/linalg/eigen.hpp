@@ -45,7 +45,7 @@ struct EigenOptions {
   double negative_shift = std::numeric_limits<double>::quiet_NaN();
   /// Estimate of the first elastic eigenvalue (rad/s)^2, > 0; sets the shift of free bodies.
   double scale = 0.0;
-  int block_size = 0;   ///< 0: 4
+  int block_size = 0;     ///< 0: 4
   int dense_limit = 600;  ///< automatic: dense below this many dofs
   std::uint64_t seed = 1;
 };
@@ -54,9 +54,9 @@ struct EigenOptions {
 struct Certificate {
   bool asked = true;
   bool complete = false;
-  std::string method;   ///< "inertia", "restart", "all modes", "none"
-  Offset count = 0;     ///< eigenvalues (known ones included) counted at or below `at`
-  double at = 0.0;      ///< eigenvalue up to which completeness is shown
+  std::string method;  ///< "inertia", "restart", "all modes", "none"
+  Offset count = 0;    ///< eigenvalues (known ones included) counted at or below `at`
+  double at = 0.0;     ///< eigenvalue up to which completeness is shown
   double seconds = 0.0;
   int solves = 0;
 };
@@ -65,13 +65,13 @@ enum class EigenStatus { converged, not_converged, not_certified };
 
 struct EigenResult {
   EigenStatus status = EigenStatus::not_converged;
-  Eigen::VectorXd value;    ///< ascending
-  Eigen::MatrixXd vector;   ///< columns, x^T M x = 1
+  Eigen::VectorXd value;   ///< ascending
+  Eigen::MatrixXd vector;  ///< columns, x^T M x = 1
   Certificate certificate;
-  std::string engine;       ///< "lanczos", "arpack", "dense"
-  std::string message;      ///< why, when not converged or not certified
-  double shift = 0.0;       ///< used
-  int solves = 0;           ///< single right-hand sides
+  std::string engine;   ///< "lanczos", "arpack", "dense"
+  std::string message;  ///< why, when not converged or not certified
+  double shift = 0.0;   ///< used
+  int solves = 0;       ///< single right-hand sides
   int restarts = 0;
   Offset factor_nonzeros = 0;
   double seconds_analyse = 0.0, seconds_factor = 0.0, seconds_iterate = 0.0;
@@ -84,18 +84,17 @@ struct EigenResult {
 /// A general (unsymmetric) pencil: complex eigenvalues, right and left vectors.
 struct UnsymmetricEigenResult {
   EigenStatus status = EigenStatus::not_converged;
-  Eigen::VectorXcd value;   ///< ascending by real part
-  Eigen::MatrixXcd right;   ///< K x = lambda M x, x^* M x = 1
-  Eigen::MatrixXcd left;    ///< y^* K = lambda y^* M, y^* M x = 1
-  double largest = 0.0;     ///< max |lambda| of K (all modes: exact; else an estimate)
-  double imaginary = 0.0;   ///< max |Im lambda| / max |lambda| over the returned ones
+  Eigen::VectorXcd value;  ///< ascending by real part
+  Eigen::MatrixXcd right;  ///< K x = lambda M x, x^* M x = 1
+  Eigen::MatrixXcd left;   ///< y^* K = lambda y^* M, y^* M x = 1
+  double largest = 0.0;    ///< max |lambda| of K (all modes: exact; else an estimate)
+  double imaginary = 0.0;  ///< max |Im lambda| / max |lambda| over the returned ones
   Certificate certificate;
   std::string engine, message;
   int solves = 0;
   double seconds_factor = 0.0, seconds_iterate = 0.0;
 };
 [[nodiscard]] UnsymmetricEigenResult solve_unsymmetric(const EigenProblem& problem,
-                                                       const EigenOptions& options,
-                                                       const Sink& sink = {});
+                                                       const EigenOptions& options, const Sink& sink = {});
 
 }  // namespace perimode

@@ -13,9 +13,9 @@ namespace perimode {
 /// the diagonal block is always stored. Block e is value[e*block*block ..], row-major.
 struct BlockCsr {
   int block = 1;
-  Index rows = 0;                  ///< block rows
-  std::vector<Offset> row_start;   ///< rows + 1
-  std::vector<Index> column;       ///< block columns
+  Index rows = 0;                 ///< block rows
+  std::vector<Offset> row_start;  ///< rows + 1
+  std::vector<Index> column;      ///< block columns
   std::vector<double> value;
 
   [[nodiscard]] Offset blocks() const { return row_start.empty() ? 0 : row_start.back(); }

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "perimode/linalg/sparse.hpp"
+
+namespace perimode {
+
+/// A fill-reducing order of a matrix with symmetric pattern: order[k] = the dof eliminated k-th.
+/// The dofs of one node (equal, non-decreasing node_of_dof; empty: each its own) stay together:
+/// METIS nested dissection runs on the graph of the nodes. Cost O(nonzeros log rows).
+[[nodiscard]] std::vector<Index> fill_reducing_order(const Csr& pattern, std::span<const Index> node_of_dof);
+
+/// What a Cholesky factorisation would cost, from the pattern alone.
+struct FillEstimate {
+  Offset nonzeros = 0;        ///< of L
+  double flops = 0.0;         ///< of the factorisation
+  double factor_bytes = 0.0;  ///< L as stored (dense supernodes hold some zeros)
+  double peak_bytes = 0.0;    ///< L, the copies of the matrix and the work space of the factorisation
+};
+/// Orders and counts; no numbers are touched. Cost as an ordering and O(nonzeros).
+[[nodiscard]] FillEstimate predict_fill(const Csr& pattern, std::span<const Index> node_of_dof);
+
+enum class FactorStatus { done, not_positive_definite };
+
+/// P (K - sigma diag(mass)) P^T = L L^T, supernodal (CHOLMOD). One analysis serves any number of
+/// factorisations of matrices with the same pattern. Moves, does not copy.
+class CholeskyFactor {
+ public:
+  /// Orders and analyses. Throws Error(environment) if L needs 2^31 entries or more, or if memory
+  /// runs out.
+  CholeskyFactor(const Csr& pattern, std::span<const Index> node_of_dof);
+  /// The same with a given order.
+  CholeskyFactor(const Csr& pattern, std::vector<Index> order);
+  ~CholeskyFactor();
+  CholeskyFactor(CholeskyFactor&&) noexcept;
+  CholeskyFactor& operator=(CholeskyFactor&&) noexcept;
+  CholeskyFactor(const CholeskyFactor&) = delete;
+  CholeskyFactor& operator=(const CholeskyFactor&) = delete;
+
+  /// Factors matrix - sigma diag(mass); `matrix` is symmetric with the analysed pattern. A matrix
+  /// whose smallest pivot is below 1e-13 of the largest counts as not positive definite.
+  [[nodiscard]] FactorStatus factorize(const Csr& matrix, double sigma, const Eigen::VectorXd& mass);
+
+  /// x = (K - sigma M)^-1 b for all columns at once. Not for two threads at a time.
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+
+  [[nodiscard]] const FillEstimate& fill() const;
+  [[nodiscard]] const std::vector<Index>& order() const;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+/// K - sigma diag(mass) = L D L^T with pivoting, for indefinite matrices (sequential MUMPS).
+/// Its inertia counts eigenvalues: by Sylvester's law the number of negative pivots is the number
+/// of lambda < sigma of K x = lambda M x.
+class IndefiniteFactor {
+ public:
+  /// Factors at once; `order` as from fill_reducing_order. Throws Error(solver_failure) with the
+  /// code of MUMPS if it breaks down and Error(environment) if memory runs out.
+  IndefiniteFactor(const Csr& matrix, double sigma, const Eigen::VectorXd& mass,
+                   std::span<const Index> order);
+  ~IndefiniteFactor();
+  IndefiniteFactor(IndefiniteFactor&&) noexcept;
+  IndefiniteFactor& operator=(IndefiniteFactor&&) noexcept;
+  IndefiniteFactor(const IndefiniteFactor&) = delete;
+  IndefiniteFactor& operator=(const IndefiniteFactor&) = delete;
+
+  [[nodiscard]] Index negative_pivots() const;
+  [[nodiscard]] Offset nonzeros() const;
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+/// P (K - sigma diag(mass)) Q = L U for unsymmetric matrices (UMFPACK).
+class LuFactor {
+ public:
+  /// Factors at once. Throws Error(solver_failure) if the matrix is singular to working precision.
+  LuFactor(const Csr& matrix, double sigma, const Eigen::VectorXd& mass);
+  ~LuFactor();
+  LuFactor(LuFactor&&) noexcept;
+  LuFactor& operator=(LuFactor&&) noexcept;
+  LuFactor(const LuFactor&) = delete;
+  LuFactor& operator=(const LuFactor&) = delete;
+
+  [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
+  /// x = (K - sigma M)^-T b
+  [[nodiscard]] Eigen::VectorXd solve_transposed(const Eigen::VectorXd& b) const;
+
+ private:
+  struct Handle;
+  std::unique_ptr<Handle> handle_;
+};
+
+}  // namespace perimode

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <functional>
+
+#include "perimode/core/sink.hpp"
+#include "shift_invert.hpp"
+
+namespace perimode {
+
+/// Which eigenvalues theta of Op are wanted: the `count` largest in magnitude with the whole
+/// cluster of the last one; or, with floor > 0, all with |theta| >= floor.
+struct Wanted {
+  Eigen::Index count = 0;
+  double floor = 0.0;
+};
+
+struct SearchSettings {
+  int block = 4;
+  double tolerance = 1e-10;
+  std::uint64_t seed = 1;
+  int most_restarts = 300;
+};
+
+/// Converged eigenpairs of Op outside a deflated space, largest |theta| first.
+struct EigenPairs {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd vector;         ///< orthonormal to the accuracy of the iteration
+  double next = 0.0;              ///< no further |theta| was seen above this; 0: there is none
+  Eigen::MatrixXd neighbourhood;  ///< orthonormal, orthogonal to `vector`: what else the iteration holds
+  bool converged = false;
+  int restarts = 0;
+};
+
+/// A method that finds the wanted pairs of Op outside `deflated` (orthonormal columns), beginning
+/// with `start`. It may miss copies of repeated eigenvalues; search() does not.
+using Method =
+    std::function<EigenPairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
+                             const Wanted& wanted, const SearchSettings& settings)>;
+
+[[nodiscard]] EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+                                       const Eigen::MatrixXd& start, const Wanted& wanted,
+                                       const SearchSettings& settings);
+[[nodiscard]] EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+                                const Eigen::MatrixXd& start, const Wanted& wanted,
+                                const SearchSettings& settings);
+
+/// Are two distances |lambda - sigma| = 1/|theta| copies of one eigenvalue? Apart by less than 1e-6
+/// of themselves (or 1e-9 of |sigma|, the round-off of a shift inside the spectrum): yes.
+[[nodiscard]] bool same_cluster(const ShiftInvert& op, double theta, double other);
+
+/// Is a Ritz pair good: |K x - lambda M x|_{M^-1} = |r| / theta^2 (Op y = theta y + r, y purified)
+/// at most tolerance * lambda, or as far down as round-off lets the iteration go?
+[[nodiscard]] bool is_converged(const ShiftInvert& op, double theta, double residual, double largest,
+                                double tolerance);
+
+/// Looks for an eigenvalue |theta| >= cut of Op outside `deflated` with a random block. If there
+/// were one, a random block of p columns would have less than `shy`/sqrt(n) of it in every column
+/// with a probability of about shy^p only; the iteration runs until a component of that size must
+/// have shown: T_j(x)^2 >= n / shy^2 * rho / (cut - rho), T_j the Chebyshev polynomial for the
+/// spectrum seen, rho its largest Ritz value [Kuczynski & Wozniakowski 1992, the same argument].
+struct Probe {
+  bool clean = true;
+  Eigen::MatrixXd found;  ///< approximate eigenvectors with |theta| >= cut
+};
+[[nodiscard]] Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut, int block,
+                          std::uint64_t seed);
+
+/// All wanted pairs: the method first, then random blocks deflated against everything found, until
+/// one finds nothing at or above the cut, which lies in the gap after the last wanted cluster.
+struct SearchResult {
+  EigenPairs pairs;    ///< the wanted ones and the rest of the last cluster
+  double cut = 0.0;    ///< |theta| above which all are found
+  bool clean = false;  ///< the last random block found nothing
+  std::string message;
+};
+[[nodiscard]] SearchResult search(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+                                  const SearchSettings& settings, const Method& method, const Sink& sink);
+
+/// The second half of search(): extends `result.pairs` until a random block is clean.
+void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+              const SearchSettings& settings, SearchResult& result, const Sink& sink);
+
+/// [a b]
+[[nodiscard]] Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
+
+}  // namespace perimode

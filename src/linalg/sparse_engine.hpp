@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+
+#include "perimode/linalg/eigen.hpp"
+#include "search.hpp"
+
+namespace perimode {
+
+/// The lowest modes by a positive definite factor (sigma <= 0).
+[[nodiscard]] EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& options,
+                                       const Sink& sink);
+
+/// All modes of a range, or the modes nearest to a shift, by indefinite factors.
+[[nodiscard]] EigenResult solve_range(const EigenProblem& problem, const EigenOptions& options,
+                                      const Sink& sink);
+[[nodiscard]] EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& options,
+                                        const Sink& sink);
+
+[[nodiscard]] SearchSettings search_settings(const EigenOptions& options);
+[[nodiscard]] Method search_method(const EigenOptions& options);
+[[nodiscard]] const char* method_name(const EigenOptions& options);
+
+/// M^1/2 known, with no columns where nothing is known.
+[[nodiscard]] Eigen::MatrixXd known_directions(const EigenProblem& problem);
+
+/// Values and vectors of `result`: Rayleigh quotients of K and M in the span of M^-1/2 y, ascending.
+void rayleigh_ritz(const EigenProblem& problem, const Eigen::MatrixXd& y, EigenResult& result);
+
+/// Keeps modes [first, first + count).
+void keep(EigenResult& result, Eigen::Index first, Eigen::Index count);
+
+class Stopwatch {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace perimode
