@@ -29,8 +29,8 @@ enum class Branch { pressure, shear };
 
 /// Angular frequency (rad/s) of a plane wave of wave number k (rad/m) in the peridynamic continuum,
 ///   omega^2 = (1/rho) int c(r)/r <w(n) (1 - cos(k r n.e))> dV,  e = k/|k|,
-/// w = (n.e)^2 for pressure, (1 - (n.e)^2)/(Dim - 1) for shear (docs/theory/05, eq. 5.8). Relative error
-/// < 1e-13; cost O((1 + k delta)^2) evaluations. Throws invalid_input for a shear wave in 1D.
+/// w = (n.e)^2 for pressure, (1 - (n.e)^2)/(Dim - 1) for shear (docs/theory/05_closed_forms.md eq. (7), (8)).
+/// Relative error < 1e-13; cost O((1 + k delta)^2) evaluations. Throws invalid_input for a shear wave in 1D.
 [[nodiscard]] double continuum_frequency(const Medium& medium, Branch branch, double k);
 
 /// What the `discrete` calibrations multiply c0 by, for a complete family:
