@@ -166,6 +166,11 @@ Section::Section(const Cursor& cursor, std::initializer_list<std::string_view> k
   }
 }
 
+const Where& Section::place() const {
+  const Where& key = cursor_.node().key_where;
+  return key.file.empty() ? where() : key;
+}
+
 bool Section::has(std::string_view key) const { return cursor_.node().find(key) != nullptr; }
 
 std::optional<Cursor> Section::find(std::string_view key) const {
@@ -179,7 +184,7 @@ Cursor Section::need(std::string_view key, const char* example) const {
   std::optional<Cursor> found = find(key);
   if (!found) {
     invalid_input({fmt::format("the key '{}' in {}", key, of_path(cursor_.path())), "none",
-                   fmt::format("add for example `{}: {}`", key, example), where()});
+                   fmt::format("add for example `{}: {}`", key, example), place()});
   }
   return *found;
 }
@@ -203,7 +208,7 @@ std::string_view Section::exactly_one(std::initializer_list<std::string_view> ke
   const std::string_view chosen = at_most_one(keys);
   if (chosen.empty()) {
     invalid_input({fmt::format("one of {} in {}", fmt::join(keys, ", "), of_path(cursor_.path())), "none",
-                   "give one of them", where()});
+                   "give one of them", place()});
   }
   return chosen;
 }

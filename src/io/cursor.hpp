@@ -85,6 +85,9 @@ class Section {
   void refuse(std::string_view key, const std::string& expected, const std::string& remedy) const;
 
  private:
+  /// Where what is missing is missed: the key of the section, if it has one.
+  [[nodiscard]] const Where& place() const;
+
   Cursor cursor_;
 };
 

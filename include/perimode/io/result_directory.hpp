@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace perimode {
+
+/// A result folder that appears whole or not at all. Files are written into a temporary sibling
+/// folder "<target>.part-<process id>"; commit() renames it to the target. Without a commit the
+/// destructor removes the temporary folder.
+class ResultDirectory {
+ public:
+  /// Creates parents and the temporary folder. Throws invalid_input if the target is a file, or a
+  /// folder that is not empty and `force` is false; with `force` only an earlier result (a folder
+  /// that holds summary.json) may be replaced. Throws environment where nothing can be written.
+  ResultDirectory(const std::filesystem::path& target, bool force);
+  ~ResultDirectory();
+  ResultDirectory(ResultDirectory&& other) noexcept;
+  ResultDirectory& operator=(ResultDirectory&&) = delete;
+  ResultDirectory(const ResultDirectory&) = delete;
+  ResultDirectory& operator=(const ResultDirectory&) = delete;
+
+  /// Where to write until commit(); what an interrupted program has to remove.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  [[nodiscard]] const std::filesystem::path& target() const { return target_; }
+
+  /// Puts the result in its place. An earlier result is moved aside first and removed last, and
+  /// moved back if the new one cannot take its place. Throws environment.
+  void commit();
+
+ private:
+  std::filesystem::path target_, temporary_;  ///< temporary_ is empty when there is nothing to remove
+};
+
+}  // namespace perimode

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/io/case_template.hpp"
+
+namespace perimode {
+
+std::string_view modal_template() {
+  return R"(# Modes of a steel plate that is clamped at its left end and has an edge crack.
+# Run:    perimode modal this_file.yaml
+# Check:  perimode check this_file.yaml      (reads everything, runs nothing)
+# All numbers are plain SI: m, kg, s, N, Pa. Every key is described in docs/case_reference.md.
+title: clamped steel plate with an edge crack
+
+body:
+  dimension: 2                  # 1 bar, 2 plate or slice, 3 solid
+  plane: stress                 # 2D: stress (Poisson's ratio 1/3) | strain (1/4); the theory fixes it
+  thickness: 0.005              # 2D, m   (in 1D: area, m2)
+  particles:
+    grid:                       # particles sit at the centres of square cells
+      lower: [0, 0]             # m
+      upper: [0.4, 0.2]         # the box holds a whole number of cells
+      spacing: 0.01             # m; finer: 0.005, 0.0025
+    # file: cloud.csv           # instead of grid: columns x,y,volume[,block]
+  horizon: { ratio: 3 }         # in spacings | { length: 0.03 } in m | { neighbours: 30 } (clouds)
+  # periodic: [y]               # opposite faces are joined
+  precracks:                    # bonds that cross these segments are cut
+    - { from: [0.2, 0.0], to: [0.2, 0.05] }
+  # blocks:                     # parts with a material of their own, see `materials`
+  #   inclusion: { ball: { centre: [0.3, 0.1], radius: 0.03 } }
+
+material:
+  youngs_modulus: 210.0e+9      # Pa
+  density: 7850                 # kg/m3
+  micromodulus: { kernel: constant }   # constant | conical | gaussian (with p) | inverse_distance
+  calibration: continuum        # continuum | discrete | discrete_cut
+  volume_correction: linear     # none | linear | exact (1D)
+# materials:
+#   inclusion: { youngs_modulus: 70.0e+9, density: 2700 }   # overrides `material` in that block
+
+boundary:
+  - { fix: [x, y], at: { face: x-, layers: 3 } }      # the outermost 3 layers at x-
+  # - { wall: y-, type: mirror }  # odd | even | mirror | antimirror | zero_layer | surface_nodes (1D)
+
+analysis:
+  modal:
+    modes: 10                   # the lowest 10, rigid ones counted | range: [0, 5000] in Hz | shift: 1000 in Hz
+    solver: auto                # auto | lanczos | arpack | dense
+    certificate: auto           # proof that no mode is missing: auto | inertia | restart | none
+    reference: none             # closed_form: compare with exact frequencies where they exist
+
+output:
+  directory: out/plate          # modes.csv, modes.exo (ParaView) and summary.json
+)";
+}
+
+}  // namespace perimode
