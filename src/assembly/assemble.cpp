@@ -53,7 +53,8 @@ void row_columns(const Body<Dim>& body, Index i, std::vector<Index>& columns) {
 template <int Dim>
 Offset alive_ends(const GridBonds<Dim>& bonds, Index i) {
   Offset count = 0;
-  for (int w = 0; w < bonds.words; ++w) count += std::popcount(bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]);
+  for (int w = 0; w < bonds.words; ++w)
+    count += std::popcount(bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]);
   return count;
 }
 template <int Dim>
@@ -77,7 +78,8 @@ void plain_columns(const B& bonds, Index i, Index* column) {
   if constexpr (std::is_same_v<B, GridBonds<Dim>>) {
     const Index* here = bonds.occupant.data() + bonds.home[i];
     for (int w = 0; w < bonds.words; ++w) {
-      for (auto bits = bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]; bits != 0; bits &= bits - 1) {
+      for (auto bits = bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]; bits != 0;
+           bits &= bits - 1) {
         put(here[bonds.step[64 * w + std::countr_zero(bits)]]);
       }
     }
@@ -102,7 +104,9 @@ void fill_row(const Body<Dim>& body, BlockCsr& m, Index i) {
   const Index* last = m.column.data() + m.row_start[i + 1];
   double* row = m.value.data() + m.row_start[i] * block_size<Dim>;
   std::fill(row, row + (last - first) * block_size<Dim>, 0.0);
-  const auto block = [&](Index column) { return row + (std::lower_bound(first, last, column) - first) * block_size<Dim>; };
+  const auto block = [&](Index column) {
+    return row + (std::lower_bound(first, last, column) - first) * block_size<Dim>;
+  };
   double* diagonal = block(i);
   for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
     const double k = bond_stiffness(body, i, end);
@@ -115,7 +119,8 @@ void fill_row(const Body<Dim>& body, BlockCsr& m, Index i) {
     const Index j = followed(body, end.neighbour);
     if (j < 0) return;
     double* target = block(j);
-    const double* coefficient = body.boundary.coefficient.data() + static_cast<std::size_t>(end.neighbour - n) * Dim;
+    const double* coefficient =
+        body.boundary.coefficient.data() + static_cast<std::size_t>(end.neighbour - n) * Dim;
     for (int a = 0; a < Dim; ++a) {
       for (int b = 0; b < Dim; ++b) target[a * Dim + b] -= k * (e[a] * e[b]) * coefficient[b];
     }
@@ -139,7 +144,8 @@ OrbitBlocks<Dim> orbit_blocks(const Body<Dim>& body, const GridBonds<Dim>& bonds
   for (int k = 0; k < f.size(); ++k) {
     Point<Dim> e;
     for (int a = 0; a < Dim; ++a) e[a] = f.spacing * f.offset[k][a] / f.length[k];
-    add_outer<Dim>(t.plus.data() + static_cast<std::size_t>(k) * nb, body.constants.kernel[k] * f.weight[k] * (v * v) / f.length[k], e);
+    add_outer<Dim>(t.plus.data() + static_cast<std::size_t>(k) * nb,
+                   body.constants.kernel[k] * f.weight[k] * (v * v) / f.length[k], e);
   }
   t.whole.assign(static_cast<std::size_t>(f.size() + 1) * nb, 0.0);
   double* diagonal = t.whole.data() + static_cast<std::size_t>(f.size() / 2) * nb;
@@ -155,8 +161,8 @@ OrbitBlocks<Dim> orbit_blocks(const Body<Dim>& body, const GridBonds<Dim>& bonds
 
 /// A plain row of a grid of one material.
 template <int Dim>
-void fill_plain_row(const GridBonds<Dim>& bonds, const OrbitBlocks<Dim>& orbits, const std::vector<double>& factor,
-                    Index i, Offset ends, double* row) {
+void fill_plain_row(const GridBonds<Dim>& bonds, const OrbitBlocks<Dim>& orbits,
+                    const std::vector<double>& factor, Index i, Offset ends, double* row) {
   constexpr int nb = block_size<Dim>;
   const int half = bonds.family.size() / 2;
   if (factor.empty() && ends == bonds.family.size()) {
@@ -167,7 +173,8 @@ void fill_plain_row(const GridBonds<Dim>& bonds, const OrbitBlocks<Dim>& orbits,
   std::array<double, nb> sum = {};
   double* diagonal = nullptr;
   for (int w = 0; w < bonds.words; ++w) {
-    for (auto bits = bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]; bits != 0; bits &= bits - 1) {
+    for (auto bits = bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]; bits != 0;
+         bits &= bits - 1) {
       const int k = 64 * w + std::countr_zero(bits);
       if (diagonal == nullptr && k >= half) {
         diagonal = row;
@@ -245,7 +252,8 @@ void fill_stiffness(const Body<Dim>& body, BlockCsr& matrix) {
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < n; ++i) {
     if (plain_row(*grid, body.particles, i)) {
-      fill_plain_row(*grid, orbits, body.constants.factor, i, matrix.row_start[i + 1] - matrix.row_start[i] - 1,
+      fill_plain_row(*grid, orbits, body.constants.factor, i,
+                     matrix.row_start[i + 1] - matrix.row_start[i] - 1,
                      matrix.value.data() + matrix.row_start[i] * block_size<Dim>);
     } else {
       fill_row(body, matrix, i);
@@ -302,7 +310,8 @@ double bond_energy(const Body<Dim>& body, const std::vector<double>& u) {
       const std::size_t g = static_cast<std::size_t>(end.neighbour - n);
       Point<Dim> uj;
       for (int a = 0; a < Dim; ++a) {
-        uj[a] = body.boundary.coefficient[g * Dim + a] * u[static_cast<std::size_t>(body.boundary.image[g]) * Dim + a];
+        uj[a] = body.boundary.coefficient[g * Dim + a] *
+                u[static_cast<std::size_t>(body.boundary.image[g]) * Dim + a];
       }
       sum += 0.5 * k * e.dot(ui) * e.dot(ui - uj);
     });
@@ -313,12 +322,12 @@ double bond_energy(const Body<Dim>& body, const std::vector<double>& u) {
   return total;
 }
 
-#define PERIMODE_ASSEMBLE(D)                                               \
-  template BlockCsr stiffness_pattern<D>(const Body<D>&);                  \
-  template void fill_stiffness<D>(const Body<D>&, BlockCsr&);              \
-  template BlockCsr assemble_stiffness<D>(const Body<D>&);                 \
-  template Eigen::VectorXd lumped_mass<D>(const Body<D>&);                 \
-  template std::vector<Index> particle_of_free_dof<D>(const Body<D>&);     \
+#define PERIMODE_ASSEMBLE(D)                                           \
+  template BlockCsr stiffness_pattern<D>(const Body<D>&);              \
+  template void fill_stiffness<D>(const Body<D>&, BlockCsr&);          \
+  template BlockCsr assemble_stiffness<D>(const Body<D>&);             \
+  template Eigen::VectorXd lumped_mass<D>(const Body<D>&);             \
+  template std::vector<Index> particle_of_free_dof<D>(const Body<D>&); \
   template double bond_energy<D>(const Body<D>&, const std::vector<double>&)
 PERIMODE_ASSEMBLE(1);
 PERIMODE_ASSEMBLE(2);

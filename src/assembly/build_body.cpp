@@ -79,7 +79,8 @@ std::vector<Crack<Dim>> make_cracks(const Model& model) {
   std::vector<Crack<Dim>> cracks;
   for (const auto& spec : model.precracks) {
     Crack<Dim> crack;
-    for (const auto& corner : spec.points) crack.corner.push_back(to_point<Dim>(corner, "a pre-crack corner", spec.where));
+    for (const auto& corner : spec.points)
+      crack.corner.push_back(to_point<Dim>(corner, "a pre-crack corner", spec.where));
     const std::size_t least = Dim;  // a point, a segment, a polygon
     if (crack.corner.size() < least || (Dim < 3 && crack.corner.size() > least)) {
       invalid_input({fmt::format("{} corner{} of a pre-crack", Dim == 3 ? "at least 3" : std::to_string(Dim),
@@ -89,14 +90,17 @@ std::vector<Crack<Dim>> make_cracks(const Model& model) {
     if constexpr (Dim > 1) {
       for (std::size_t k = 0; k < crack.corner.size(); ++k) {
         if (crack.corner[k] == crack.corner[(k + 1) % crack.corner.size()]) {
-          invalid_input({"a pre-crack of positive length", "two equal corners", "move one of them", spec.where});
+          invalid_input(
+              {"a pre-crack of positive length", "two equal corners", "move one of them", spec.where});
         }
       }
     }
     if constexpr (Dim == 3) {
-      const Point<3> normal = (crack.corner[1] - crack.corner[0]).cross(crack.corner[2] - crack.corner[0]).normalized();
+      const Point<3> normal =
+          (crack.corner[1] - crack.corner[0]).cross(crack.corner[2] - crack.corner[0]).normalized();
       for (const auto& c : crack.corner) {
-        if (!(std::abs(normal.dot(c - crack.corner[0])) <= 1e-9 * (crack.corner[1] - crack.corner[0]).norm())) {
+        if (!(std::abs(normal.dot(c - crack.corner[0])) <=
+              1e-9 * (crack.corner[1] - crack.corner[0]).norm())) {
           invalid_input({"a plane polygon, its first three corners not on a line", "corners out of plane",
                          "split it into plane pieces", spec.where});
         }
@@ -117,23 +121,27 @@ Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
     if (particles.grid) {
       const double spacing = particles.grid->spacing;
       if (h.rule == HorizonSpec::Rule::neighbours) {
-        invalid_input({"horizon {ratio} or {length} for a grid", "{neighbours}", "neighbours belong to clouds", h.where});
+        invalid_input({"horizon {ratio} or {length} for a grid", "{neighbours}",
+                       "neighbours belong to clouds", h.where});
       }
       const double delta = h.rule == HorizonSpec::Rule::ratio ? h.value * spacing : h.value;
-      return make_grid_bonds(particles, make_family<Dim>(spacing, delta, model.volume_correction, model.self_cell),
+      return make_grid_bonds(particles,
+                             make_family<Dim>(spacing, delta, model.volume_correction, model.self_cell),
                              beyond_faces<Dim>(model.boundary, model.periodic));
     }
     if (h.rule == HorizonSpec::Rule::ratio) {
-      invalid_input({"horizon {length} or {neighbours} for a cloud", "{ratio}", "a cloud has no spacing", h.where});
+      invalid_input(
+          {"horizon {length} or {neighbours} for a cloud", "{ratio}", "a cloud has no spacing", h.where});
     }
     const bool walls = std::any_of(model.boundary.begin(), model.boundary.end(),
                                    [](const auto& c) { return std::holds_alternative<Wall>(c.what); });
     if (walls || model.periodic[0] || model.periodic[1] || model.periodic[2]) {
-      invalid_input({"a grid where there are walls or periodic axes", "a cloud", "use a grid, or fix regions of the cloud",
-                     std::get<CloudSpec>(model.particles).where});
+      invalid_input({"a grid where there are walls or periodic axes", "a cloud",
+                     "use a grid, or fix regions of the cloud", std::get<CloudSpec>(model.particles).where});
     }
     std::vector<double> horizon(particles.count(), h.value);
-    if (h.rule == HorizonSpec::Rule::neighbours) horizon = cloud_horizons(particles, static_cast<int>(h.value));
+    if (h.rule == HorizonSpec::Rule::neighbours)
+      horizon = cloud_horizons(particles, static_cast<int>(h.value));
     return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model));
   } catch (const Error& error) {
     if (error.where().line > 0 || h.where.line == 0) throw;
@@ -202,7 +210,8 @@ void calibrate(BondConstants& constants, const Body<Dim>& body, const std::vecto
       // A particle's bond to its own periodic image carries no force, so it has no alive bit, but counts.
       if (without_cut && end.neighbour != i && !alive(body.bonds, i, end.slot)) return;
       const Index j = owner(body.bonds, end.neighbour, n);
-      energy += 0.25 * own_kernel(body, constants, i, end.slot) * end.weight * end.length * body.particles.volume[j];
+      energy += 0.25 * own_kernel(body, constants, i, end.slot) * end.weight * end.length *
+                body.particles.volume[j];
     });
     if (energy > 0.0) {
       constants.factor[i] = blocks[body.particles.block[i]].energy / energy;
@@ -213,7 +222,8 @@ void calibrate(BondConstants& constants, const Body<Dim>& body, const std::vecto
   }
   if (lonely >= 0) {
     invalid_input({"at least one bond at every particle for calibration discrete",
-                   fmt::format("none at particle {}", lonely), "use calibration continuum or a longer horizon", where});
+                   fmt::format("none at particle {}", lonely),
+                   "use calibration continuum or a longer horizon", where});
   }
 }
 
@@ -246,8 +256,8 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
   for (const auto& [name, material] : model.block_materials) {
     const auto& names = body.particles.block_names;
     if (std::find(names.begin() + 1, names.end(), name) == names.end()) {
-      invalid_input({"materials of blocks the body has", fmt::format("'{}'", name), "define the block in body.blocks",
-                     material.where});
+      invalid_input({"materials of blocks the body has", fmt::format("'{}'", name),
+                     "define the block in body.blocks", material.where});
     }
   }
 
@@ -280,10 +290,11 @@ double bond_stiffness(const Body<Dim>& body, Index i, const BondEnd<Dim>& end) {
     const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
     const auto row = cloud.neighbour.begin() + cloud.start[j];
     ci = constants.kernel_of_end[end.slot];
-    cj = block[i] == block[j]
-             ? ci
-             : constants.kernel_of_end[std::lower_bound(row, cloud.neighbour.begin() + cloud.start[j + 1], i) -
-                                       cloud.neighbour.begin()];
+    cj =
+        block[i] == block[j]
+            ? ci
+            : constants.kernel_of_end[std::lower_bound(row, cloud.neighbour.begin() + cloud.start[j + 1], i) -
+                                      cloud.neighbour.begin()];
   }
   if (!constants.factor.empty()) {
     ci *= constants.factor[i];
@@ -302,15 +313,17 @@ BodySize estimate_size(const Model& model) {
   for (std::size_t a = 0; a < spec->lower.size() && a < spec->upper.size(); ++a) {
     size.particles *= std::round((spec->upper[a] - spec->lower[a]) / spec->spacing);
   }
-  const double ratio =
-      model.horizon.rule == HorizonSpec::Rule::ratio ? model.horizon.value : model.horizon.value / spec->spacing;
+  const double ratio = model.horizon.rule == HorizonSpec::Rule::ratio ? model.horizon.value
+                                                                      : model.horizon.value / spec->spacing;
   const double pi = 3.14159265358979323846;
-  size.family = model.dimension == 1 ? 2.0 * ratio : model.dimension == 2 ? pi * ratio * ratio : 4.0 / 3.0 * pi * std::pow(ratio, 3);
+  size.family = model.dimension == 1   ? 2.0 * ratio
+                : model.dimension == 2 ? pi * ratio * ratio
+                                       : 4.0 / 3.0 * pi * std::pow(ratio, 3);
   return size;
 }
 
-#define PERIMODE_BODY(D)                                              \
-  template Body<D> build_body<D>(const Model&, const Sink&);          \
+#define PERIMODE_BODY(D)                                     \
+  template Body<D> build_body<D>(const Model&, const Sink&); \
   template double bond_stiffness<D>(const Body<D>&, Index, const BondEnd<D>&)
 PERIMODE_BODY(1);
 PERIMODE_BODY(2);

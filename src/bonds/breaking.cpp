@@ -144,9 +144,9 @@ Offset count_bonds(const Bonds<Dim>& bonds, Index particles) {
   return between / 2 + to_ghosts;
 }
 
-#define PERIMODE_BREAKING(D)                                                                                  \
-  template void break_bond<D>(Bonds<D>&, Index, Offset);                                                      \
-  template Offset cut_bonds<D>(Bonds<D>&, const Particles<D>&, const std::vector<Crack<D>>&, double);         \
+#define PERIMODE_BREAKING(D)                                                                          \
+  template void break_bond<D>(Bonds<D>&, Index, Offset);                                              \
+  template Offset cut_bonds<D>(Bonds<D>&, const Particles<D>&, const std::vector<Crack<D>>&, double); \
   template Offset count_bonds<D>(const Bonds<D>&, Index)
 PERIMODE_BREAKING(1);
 PERIMODE_BREAKING(2);

@@ -26,8 +26,8 @@ struct PointSet {
 };
 
 template <int Dim>
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointSet<Dim>>, PointSet<Dim>,
-                                                 Dim, std::uint32_t>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PointSet<Dim>>,
+                                                 PointSet<Dim>, Dim, std::uint32_t>;
 
 }  // namespace
 
@@ -36,7 +36,9 @@ std::vector<double> cloud_horizons(const Particles<Dim>& particles, int neighbou
   const Index n = particles.count();
   if (neighbours >= n) {
     invalid_input({fmt::format("body.horizon.neighbours below the number of particles, {}", n),
-                   fmt::format("{}", neighbours), "ask for fewer neighbours", {}});
+                   fmt::format("{}", neighbours),
+                   "ask for fewer neighbours",
+                   {}});
   }
   const PointSet<Dim> points{particles.position};
   Tree<Dim> tree(Dim, points, nanoflann::KDTreeSingleIndexAdaptorParams(10));
@@ -82,7 +84,8 @@ CloudBonds<Dim> make_cloud_bonds(const Particles<Dim>& particles, const std::vec
   for (Index i = 0; i < n; ++i) {
     const double radius = horizon[i] * (1.0 + 2.0 * tie) + extra;
     std::vector<std::pair<std::uint32_t, double>> found;
-    tree.radiusSearch(particles.position[i].data(), radius * radius, found, nanoflann::SearchParams(32, 0.0, false));
+    tree.radiusSearch(particles.position[i].data(), radius * radius, found,
+                      nanoflann::SearchParams(32, 0.0, false));
     for (const auto& hit : found) {
       const auto j = static_cast<Index>(hit.first);
       const double length = (particles.position[j] - particles.position[i]).norm();
@@ -117,9 +120,10 @@ CloudBonds<Dim> make_cloud_bonds(const Particles<Dim>& particles, const std::vec
   return b;
 }
 
-#define PERIMODE_CLOUD(D)                                                          \
-  template std::vector<double> cloud_horizons<D>(const Particles<D>&, int);        \
-  template CloudBonds<D> make_cloud_bonds<D>(const Particles<D>&, const std::vector<double>&, VolumeCorrection, double)
+#define PERIMODE_CLOUD(D)                                                                     \
+  template std::vector<double> cloud_horizons<D>(const Particles<D>&, int);                   \
+  template CloudBonds<D> make_cloud_bonds<D>(const Particles<D>&, const std::vector<double>&, \
+                                             VolumeCorrection, double)
 PERIMODE_CLOUD(1);
 PERIMODE_CLOUD(2);
 PERIMODE_CLOUD(3);

@@ -38,8 +38,10 @@ template <int Dim>
 Family<Dim> make_family(double spacing, double horizon, VolumeCorrection correction, bool self_cell) {
   const double layers = horizon / spacing;
   if (!(layers > 0.0) || !(layers < 1e5)) {
-    invalid_input({"a horizon between 0 and 100000 spacings", fmt::format("{:.6g} spacings", layers),
-                   "check body.horizon and the spacing", {}});
+    invalid_input({"a horizon between 0 and 100000 spacings",
+                   fmt::format("{:.6g} spacings", layers),
+                   "check body.horizon and the spacing",
+                   {}});
   }
   Family<Dim> family;
   family.spacing = spacing;
@@ -73,8 +75,10 @@ Family<Dim> make_family(double spacing, double horizon, VolumeCorrection correct
     }
   }
   if (family.offset.empty()) {
-    invalid_input({"a horizon that reaches the nearest neighbour", fmt::format("{:.6g} spacings", layers),
-                   "give a ratio of at least 1", {}});
+    invalid_input({"a horizon that reaches the nearest neighbour",
+                   fmt::format("{:.6g} spacings", layers),
+                   "give a ratio of at least 1",
+                   {}});
   }
   return family;
 }

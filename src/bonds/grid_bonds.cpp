@@ -57,16 +57,20 @@ GridBonds<Dim> make_grid_bonds(const Particles<Dim>& particles, Family<Dim> fami
     const Beyond low = beyond[2 * a];
     const Beyond high = beyond[2 * a + 1];
     if ((low == Beyond::periodic_image) != (high == Beyond::periodic_image)) {
-      invalid_input({"both faces of an axis periodic, or neither", "one", "list the axis in body.periodic only", {}});
+      invalid_input(
+          {"both faces of an axis periodic, or neither", "one", "list the axis in body.periodic only", {}});
     }
     b.padded[a] = grid.cells[a] + 2 * b.reach;
     stride[a] = static_cast<Index>(cells);
     cells *= b.padded[a];
-    for (Index c = -b.reach; c < grid.cells[a] + b.reach; ++c) folds[a].push_back(fold(c, grid.cells[a], low, high));
+    for (Index c = -b.reach; c < grid.cells[a] + b.reach; ++c)
+      folds[a].push_back(fold(c, grid.cells[a], low, high));
   }
   if (cells > std::numeric_limits<Index>::max()) {
-    invalid_input({"fewer than 2^31 cells, layers beyond the faces included", std::to_string(cells),
-                   "use a larger spacing or a smaller horizon", {}});
+    invalid_input({"fewer than 2^31 cells, layers beyond the faces included",
+                   std::to_string(cells),
+                   "use a larger spacing or a smaller horizon",
+                   {}});
   }
 
   b.occupant.assign(static_cast<std::size_t>(cells), GridBonds<Dim>::absent);
@@ -94,7 +98,8 @@ GridBonds<Dim> make_grid_bonds(const Particles<Dim>& particles, Family<Dim> fami
     const Index particle = particle_of_cell[number];
     if (particle == GridBonds<Dim>::absent) continue;
     if (inside) b.home[particle] = cell;
-    const bool mirrored = std::any_of(ghost.crossings.begin(), ghost.crossings.end(), [](auto k) { return k > 0; });
+    const bool mirrored =
+        std::any_of(ghost.crossings.begin(), ghost.crossings.end(), [](auto k) { return k > 0; });
     if (mirrored) {
       ghost.image = particle;
       b.occupant[cell] = n + static_cast<Index>(b.ghosts.size());

@@ -9,7 +9,9 @@ namespace perimode {
 
 namespace {
 
-std::string face_name(const Face& face) { return fmt::format("{}{}", "xyz"[face.axis], face.upper ? '+' : '-'); }
+std::string face_name(const Face& face) {
+  return fmt::format("{}{}", "xyz"[face.axis], face.upper ? '+' : '-');
+}
 
 /// Sign of component `component` after one reflection at a wall normal to `axis`; 0 for a zero layer.
 double reflection(WallType type, int axis, int component) {
@@ -200,12 +202,12 @@ BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map) {
   return m;
 }
 
-#define PERIMODE_BOUNDARY(D)                                                                                     \
-  template struct BoundaryMap<D>;                                                                                \
-  template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&,                      \
-                                                     const std::array<bool, 3>&);                                \
-  template BoundaryMap<D> make_boundary_map<D>(const Particles<D>&, const Bonds<D>&,                             \
-                                               const std::vector<BoundaryCondition>&);                           \
+#define PERIMODE_BOUNDARY(D)                                                                \
+  template struct BoundaryMap<D>;                                                           \
+  template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&, \
+                                                     const std::array<bool, 3>&);           \
+  template BoundaryMap<D> make_boundary_map<D>(const Particles<D>&, const Bonds<D>&,        \
+                                               const std::vector<BoundaryCondition>&);      \
   template BoundaryMatrices boundary_matrices<D>(const BoundaryMap<D>&)
 PERIMODE_BOUNDARY(1);
 PERIMODE_BOUNDARY(2);

@@ -65,7 +65,8 @@ bool crosses<2>(const Crack<2>& crack, const Point<2>& a, const Point<2>& b, dou
   Point<2> meeting;
   if (!meets_plane<2>(left, crack.corner[0], a, b, tolerance, meeting)) return false;
   const double s = t.dot(meeting - crack.corner[0]);
-  return s > (crack.joined[0] ? -tolerance : tolerance) && s < length + (crack.joined[1] ? tolerance : -tolerance);
+  return s > (crack.joined[0] ? -tolerance : tolerance) &&
+         s < length + (crack.joined[1] ? tolerance : -tolerance);
 }
 
 template <>
@@ -102,7 +103,8 @@ void join(std::vector<Crack<Dim>>& cracks, double tolerance) {
           const auto& p2 = p[(k + 1) % p.size()];
           const auto& q2 = q[(l + 1) % q.size()];
           const bool touching =
-              Dim == 2 ? same(p[k], q[l]) : (same(p[k], q2) && same(p2, q[l])) || (same(p[k], q[l]) && same(p2, q2));
+              Dim == 2 ? same(p[k], q[l])
+                       : (same(p[k], q2) && same(p2, q[l])) || (same(p[k], q[l]) && same(p2, q2));
           if (touching) cracks[i].joined[k] = true;
         }
       }
@@ -110,8 +112,8 @@ void join(std::vector<Crack<Dim>>& cracks, double tolerance) {
   }
 }
 
-#define PERIMODE_CRACK(D)                                                       \
-  template Crack<D> reflected<D>(const Crack<D>&, int, double);                 \
+#define PERIMODE_CRACK(D)                                       \
+  template Crack<D> reflected<D>(const Crack<D>&, int, double); \
   template void join<D>(std::vector<Crack<D>>&, double)
 PERIMODE_CRACK(1);
 PERIMODE_CRACK(2);

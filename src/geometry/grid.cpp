@@ -57,7 +57,8 @@ Grid<Dim> make_grid(const Coordinates& lower, const Coordinates& upper, double s
   grid.lower = to_point<Dim>(lower, "lower", where);
   const Point<Dim> top = to_point<Dim>(upper, "upper", where);
   if (!(spacing > 0.0) || !std::isfinite(spacing)) {
-    invalid_input({"a grid spacing > 0", fmt::format("{}", spacing), "give the distance of particles in m", where});
+    invalid_input(
+        {"a grid spacing > 0", fmt::format("{}", spacing), "give the distance of particles in m", where});
   }
   grid.spacing = spacing;
   double total = 1.0;
@@ -71,7 +72,8 @@ Grid<Dim> make_grid(const Coordinates& lower, const Coordinates& upper, double s
     }
     total *= whole;
     if (total >= static_cast<double>(std::numeric_limits<Index>::max())) {
-      invalid_input({"fewer than 2^31 particles", fmt::format("{:.3g}", total), "use a larger spacing", where});
+      invalid_input(
+          {"fewer than 2^31 particles", fmt::format("{:.3g}", total), "use a larger spacing", where});
     }
     grid.cells[a] = static_cast<Index>(whole);
   }

@@ -50,8 +50,9 @@ struct Selector {
     }
     if (particles.grid) {
       if (r.layers < 1) {
-        invalid_input({"layers >= 1 for a face region of a grid", fmt::format("layers {}, depth {}", r.layers, r.depth),
-                       "write {face: x-, layers: 3}", where});
+        invalid_input({"layers >= 1 for a face region of a grid",
+                       fmt::format("layers {}, depth {}", r.layers, r.depth), "write {face: x-, layers: 3}",
+                       where});
       }
       const auto& grid = *particles.grid;
       return all([&](Index i) {
@@ -60,16 +61,17 @@ struct Selector {
       });
     }
     if (!(r.depth > 0.0)) {
-      invalid_input({"depth > 0 (m) for a face region of a cloud", fmt::format("layers {}, depth {}", r.layers, r.depth),
+      invalid_input({"depth > 0 (m) for a face region of a cloud",
+                     fmt::format("layers {}, depth {}", r.layers, r.depth),
                      "write {face: x-, depth: 0.01}; layers belong to grids", where});
     }
-    double extreme = r.face.upper ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
+    double extreme =
+        r.face.upper ? -std::numeric_limits<double>::infinity() : std::numeric_limits<double>::infinity();
     for (const auto& x : particles.position) {
       extreme = r.face.upper ? std::max(extreme, x[axis]) : std::min(extreme, x[axis]);
     }
-    return all([&](Index i) {
-      return std::abs(particles.position[i][axis] - extreme) <= r.depth * (1.0 + 1e-9);
-    });
+    return all(
+        [&](Index i) { return std::abs(particles.position[i][axis] - extreme) <= r.depth * (1.0 + 1e-9); });
   }
 
   std::vector<Index> operator()(const BoxRegion& r) const {
@@ -91,8 +93,9 @@ struct Selector {
     const auto it = std::find(names.begin() + 1, names.end(), r.name);
     if (it == names.end()) {
       invalid_input({"the name of a block of the body", fmt::format("'{}'", r.name),
-                     names.size() > 1 ? fmt::format("blocks are: {}", fmt::join(names.begin() + 1, names.end(), ", "))
-                                      : std::string("the body has no blocks"),
+                     names.size() > 1
+                         ? fmt::format("blocks are: {}", fmt::join(names.begin() + 1, names.end(), ", "))
+                         : std::string("the body has no blocks"),
                      where});
     }
     const auto number = static_cast<int>(it - names.begin());
@@ -160,10 +163,10 @@ double typical_spacing(const Particles<Dim>& particles, double section) {
   return sum / static_cast<double>(std::max<std::size_t>(1, particles.volume.size()));
 }
 
-#define PERIMODE_PARTICLES(D)                                                                    \
-  template Particles<D> grid_particles<D>(const Grid<D>&, double);                               \
-  template std::vector<Index> select<D>(const Region&, const Particles<D>&);                     \
-  template Particles<D> without<D>(const Particles<D>&, const std::vector<Index>&);              \
+#define PERIMODE_PARTICLES(D)                                                       \
+  template Particles<D> grid_particles<D>(const Grid<D>&, double);                  \
+  template std::vector<Index> select<D>(const Region&, const Particles<D>&);        \
+  template Particles<D> without<D>(const Particles<D>&, const std::vector<Index>&); \
   template double typical_spacing<D>(const Particles<D>&, double)
 PERIMODE_PARTICLES(1);
 PERIMODE_PARTICLES(2);

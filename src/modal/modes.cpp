@@ -61,7 +61,8 @@ EigenResult solve_symmetric(const EigenProblem& problem, EigenOptions wanted, co
                             Eigen::Index rigid, const Sink& sink) {
   const Eigen::Index elastic = problem.mass->size() - rigid;
   if (!options.shift) return solve_eigen(problem, wanted, sink);
-  // The nearest in Hz lie within the eigenvalues nearest to the shift up to the distance that set covers upward.
+  // The nearest in Hz lie within the eigenvalues nearest to the shift up to the distance that set covers
+  // upward.
   const double f0 = *options.shift;
   for (Eigen::Index count = wanted.count;; count *= 2) {
     wanted.count = static_cast<int>(std::min(count, elastic));
@@ -69,7 +70,8 @@ EigenResult solve_symmetric(const EigenProblem& problem, EigenOptions wanted, co
     if (r.value.size() < wanted.count || wanted.count == elastic) return r;
     const double radius = (r.value.array() - wanted.shift).abs().maxCoeff();
     const double covered = std::sqrt(wanted.shift + radius) / (2.0 * std::numbers::pi) - f0;
-    const auto inside = (r.value.array().max(0.0).sqrt() / (2.0 * std::numbers::pi) - f0).abs() <= covered * (1.0 + 1e-12);
+    const auto inside =
+        (r.value.array().max(0.0).sqrt() / (2.0 * std::numbers::pi) - f0).abs() <= covered * (1.0 + 1e-12);
     if (inside.count() >= std::min<Eigen::Index>(*options.modes, elastic)) return r;
   }
 }
@@ -192,20 +194,23 @@ void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, 
   }
   result.angular_frequency = result.eigenvalue.array().max(0.0).sqrt();
   result.frequency_hz = result.angular_frequency / (2.0 * std::numbers::pi);
-  result.rigid_modes = static_cast<int>(std::count(result.kind.begin(), result.kind.end(), ModeKind::rigid)) - result.mechanisms;
+  result.rigid_modes = static_cast<int>(std::count(result.kind.begin(), result.kind.end(), ModeKind::rigid)) -
+                       result.mechanisms;
 
   const Eigen::MatrixXd kx = multiply(problem.stiffness, result.shape);
   const double k_norm = norm_inf(problem.stiffness);
   const Eigen::MatrixXd mr = problem.mass.asDiagonal() * translations(body);
   const Eigen::MatrixXd right = result.shape.transpose() * mr;
-  result.effective_mass = result.left.cols() == 0 ? Eigen::MatrixXd(right.array().square())
-                                                  : Eigen::MatrixXd(right.array() * (result.left.transpose() * mr).array());
+  result.effective_mass = result.left.cols() == 0
+                              ? Eigen::MatrixXd(right.array().square())
+                              : Eigen::MatrixXd(right.array() * (result.left.transpose() * mr).array());
   result.residual.resize(modes);
   for (Eigen::Index k = 0; k < modes; ++k) {
     const Eigen::VectorXd mx = problem.mass.cwiseProduct(result.shape.col(k));
-    result.residual[k] = result.kind[k] == ModeKind::rigid
-                             ? kx.col(k).norm() / (k_norm * result.shape.col(k).norm())
-                             : (kx.col(k) - result.eigenvalue[k] * mx).norm() / (std::abs(result.eigenvalue[k]) * mx.norm());
+    result.residual[k] =
+        result.kind[k] == ModeKind::rigid
+            ? kx.col(k).norm() / (k_norm * result.shape.col(k).norm())
+            : (kx.col(k) - result.eigenvalue[k] * mx).norm() / (std::abs(result.eigenvalue[k]) * mx.norm());
   }
 }
 
@@ -216,7 +221,8 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
   const Eigen::MatrixXd rigid = rigid_modes(body, problem.stiffness, problem.mass);
   EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
   wanted.negative_shift = -1e-2 * scale;
-  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle, rigid.cols() > 0 ? &rigid : nullptr};
+  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle,
+                           rigid.cols() > 0 ? &rigid : nullptr};
 
   Pairs pairs;
   const bool want_rigid = !options.range || options.range->first <= 0.0;
@@ -255,9 +261,10 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
   sort_and_trim(pairs, options);
   finish(result, body, problem, std::move(pairs));
   if (result.mechanisms > 0) {
-    sink.warn(fmt::format("{} zero-energy mode{} that {} no rigid motion: the bonds do not hold the body together (a "
-                          "horizon below 2 spacings, a particle or strip on too few bonds)",
-                          result.mechanisms, result.mechanisms == 1 ? "" : "s", result.mechanisms == 1 ? "is" : "are"));
+    sink.warn(fmt::format(
+        "{} zero-energy mode{} that {} no rigid motion: the bonds do not hold the body together (a "
+        "horizon below 2 spacings, a particle or strip on too few bonds)",
+        result.mechanisms, result.mechanisms == 1 ? "" : "s", result.mechanisms == 1 ? "is" : "are"));
   }
 }
 
@@ -278,7 +285,8 @@ void solve_unsymmetric_body(ModalResult& result, const Body<Dim>& body, const Pr
   result.seconds_iterate = r.seconds_iterate;
   if (r.imaginary > 1e-8) {
     result.status = EigenStatus::not_converged;
-    result.message = fmt::format("eigenvalues are not real: max |Im lambda| / max |lambda| = {:.2e}", r.imaginary);
+    result.message =
+        fmt::format("eigenvalues are not real: max |Im lambda| / max |lambda| = {:.2e}", r.imaginary);
   }
   Pairs pairs;
   std::vector<Eigen::VectorXd> left;
@@ -315,7 +323,9 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   }
   if (options.modes && (*options.modes < 1 || *options.modes > dofs)) {
     invalid_input({fmt::format("analysis.modal.modes between 1 and the body's {} degrees of freedom", dofs),
-                   fmt::format("{}", *options.modes), "ask for fewer modes", {}});
+                   fmt::format("{}", *options.modes),
+                   "ask for fewer modes",
+                   {}});
   }
   ModalOptions wanted = options;
   if (!wanted.modes && !wanted.range) wanted.modes = std::min<Index>(20, dofs);
@@ -341,7 +351,8 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   return result;
 }
 
-Eigen::MatrixXd modal_assurance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, const Eigen::VectorXd& mass) {
+Eigen::MatrixXd modal_assurance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                const Eigen::VectorXd& mass) {
   const Eigen::MatrixXd cross = a.transpose() * mass.asDiagonal() * b;
   const Eigen::VectorXd na = (a.array().square().matrix().transpose() * mass);
   const Eigen::VectorXd nb = (b.array().square().matrix().transpose() * mass);

@@ -81,21 +81,25 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const E
     const Eigen::SelfAdjointEigenSolver<Small> metric(unit * gram[p] * unit);
     Eigen::Matrix<double, R, Eigen::Dynamic> basis(R, 0);
     for (int k = 0; k < R; ++k) {
-      if (metric.eigenvalues()[k] <= 1e-10) continue;  // not an own motion of this piece (a lone particle's rotation)
+      if (metric.eigenvalues()[k] <= 1e-10)
+        continue;  // not an own motion of this piece (a lone particle's rotation)
       basis.conservativeResize(R, basis.cols() + 1);
       basis.col(basis.cols() - 1) = unit * metric.eigenvectors().col(k) / std::sqrt(metric.eigenvalues()[k]);
     }
     const Eigen::MatrixXd energy = basis.transpose() * force[p] * basis;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> null(energy);
     for (Eigen::Index k = 0; k < energy.rows(); ++k) {
-      // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free ones.
-      if (null.eigenvalues()[k] <= std::pow(1e-7 * largest, 2)) found.push_back({p, basis * null.eigenvectors().col(k)});
+      // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free
+      // ones.
+      if (null.eigenvalues()[k] <= std::pow(1e-7 * largest, 2))
+        found.push_back({p, basis * null.eigenvectors().col(k)});
     }
   }
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(mass.size(), static_cast<Eigen::Index>(found.size()));
   for (Index d = 0; d < mass.size(); ++d) {
     for (std::size_t m = 0; m < found.size(); ++m) {
-      if (found[m].piece == piece_of_dof[d]) modes(d, static_cast<Eigen::Index>(m)) = q.row(d).dot(found[m].combination.transpose());
+      if (found[m].piece == piece_of_dof[d])
+        modes(d, static_cast<Eigen::Index>(m)) = q.row(d).dot(found[m].combination.transpose());
     }
   }
   return modes;

@@ -64,7 +64,7 @@ struct Model {
   std::array<bool, 3> periodic = {false, false, false};
   std::vector<PrecrackSpec> precracks = {};
   std::vector<BlockSpec> blocks = {};
-  Material material = {};                               ///< of everything not overridden
+  Material material = {};                                ///< of everything not overridden
   std::map<std::string, Material> block_materials = {};  ///< complete materials, by block name
   Calibration calibration = Calibration::continuum;
   VolumeCorrection volume_correction = VolumeCorrection::none;

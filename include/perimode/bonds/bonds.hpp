@@ -36,19 +36,19 @@ struct GridBonds {
   Family<Dim> family;
   std::array<Beyond, 2 * Dim> beyond = {};  ///< what lies beyond face 2 axis + (upper ? 1 : 0)
   int reach = 0;
-  std::array<Index, Dim> padded = {};   ///< cells of the padded grid per axis
-  std::vector<Index> occupant;          ///< per padded cell: particle, particles + ghost, or absent
-  std::vector<Index> home;              ///< padded cell of each particle
-  std::vector<Index> step;              ///< padded cell difference of each family member
+  std::array<Index, Dim> padded = {};  ///< cells of the padded grid per axis
+  std::vector<Index> occupant;         ///< per padded cell: particle, particles + ghost, or absent
+  std::vector<Index> home;             ///< padded cell of each particle
+  std::vector<Index> step;             ///< padded cell difference of each family member
   std::vector<Ghost<Dim>> ghosts;
-  int words = 0;                        ///< 64-bit words of alive bits per particle
-  std::vector<std::uint64_t> alive;     ///< particles * words
+  int words = 0;                     ///< 64-bit words of alive bits per particle
+  std::vector<std::uint64_t> alive;  ///< particles * words
 };
 
 /// Bonds of a cloud: both ends of every bond, sorted by particle and neighbour.
 template <int Dim>
 struct CloudBonds {
-  std::vector<Offset> start;         ///< particles + 1
+  std::vector<Offset> start;  ///< particles + 1
   std::vector<Index> neighbour;
   std::vector<Point<Dim>> xi;        ///< m
   std::vector<double> weight;        ///< beta
@@ -100,7 +100,8 @@ template <int Dim, class Visit>
 void for_each_bond(const CloudBonds<Dim>& bonds, Index i, Which which, Visit&& visit) {
   for (Offset e = bonds.start[i]; e < bonds.start[i + 1]; ++e) {
     if (which == Which::alive && !is_alive(bonds, i, e)) continue;
-    visit(BondEnd<Dim>{bonds.neighbour[e], bonds.xi[e], bonds.xi[e].norm(), bonds.weight[e], bonds.horizon[e], e});
+    visit(BondEnd<Dim>{bonds.neighbour[e], bonds.xi[e], bonds.xi[e].norm(), bonds.weight[e], bonds.horizon[e],
+                       e});
   }
 }
 template <int Dim, class Visit>
@@ -123,11 +124,13 @@ template <int Dim>
 /// horizon is the mean. `linear` extends by half the pair's mean cell size (volume/section)^(1/Dim)
 /// and weights as on a grid. Cost O(n log n + bonds).
 template <int Dim>
-[[nodiscard]] CloudBonds<Dim> make_cloud_bonds(const Particles<Dim>& particles, const std::vector<double>& horizon,
+[[nodiscard]] CloudBonds<Dim> make_cloud_bonds(const Particles<Dim>& particles,
+                                               const std::vector<double>& horizon,
                                                VolumeCorrection correction, double section);
 
 /// Cuts every bond that crosses one of the cracks; those of a grid are repeated in its walls and
-/// periodic images first. Returns the number of bonds cut (a bond counts once). `spacing` scales the tolerance 1e-9.
+/// periodic images first. Returns the number of bonds cut (a bond counts once). `spacing` scales the
+/// tolerance 1e-9.
 template <int Dim>
 Offset cut_bonds(Bonds<Dim>& bonds, const Particles<Dim>& particles, const std::vector<Crack<Dim>>& cracks,
                  double spacing);

@@ -17,11 +17,11 @@ enum class VolumeCorrection { none, linear, exact };
 template <int Dim>
 struct Family {
   double spacing = 0.0;
-  double horizon = 0.0;                       ///< delta, m
-  std::vector<std::array<int, Dim>> offset;   ///< in cells, x first
-  std::vector<double> length;                 ///< |xi| = spacing |offset|, m
-  std::vector<double> weight;                 ///< beta: share of the cell inside the horizon
-  std::vector<int> orbit;                     ///< orbits share the sorted absolute offset; from 0
+  double horizon = 0.0;                      ///< delta, m
+  std::vector<std::array<int, Dim>> offset;  ///< in cells, x first
+  std::vector<double> length;                ///< |xi| = spacing |offset|, m
+  std::vector<double> weight;                ///< beta: share of the cell inside the horizon
+  std::vector<int> orbit;                    ///< orbits share the sorted absolute offset; from 0
 
   [[nodiscard]] int size() const { return static_cast<int>(offset.size()); }
   /// Largest |component| of an offset: how many layers of cells a bond can cross.

@@ -15,12 +15,12 @@ namespace perimode {
 /// dof = Dim * particle + component. Sources: docs/theory/03_boundaries.md.
 template <int Dim>
 struct BoundaryMap {
-  std::vector<Index> free_number;     ///< per dof of a particle: number among the free ones, or -1
-  std::vector<double> given;          ///< per dof of a particle: its value where it is not free, m
-  std::vector<Index> image;           ///< per ghost: the particle it follows
-  std::vector<double> coefficient;    ///< Dim per ghost
-  std::vector<double> value;          ///< Dim per ghost, m
-  Index free = 0;                     ///< number of free dofs
+  std::vector<Index> free_number;   ///< per dof of a particle: number among the free ones, or -1
+  std::vector<double> given;        ///< per dof of a particle: its value where it is not free, m
+  std::vector<Index> image;         ///< per ghost: the particle it follows
+  std::vector<double> coefficient;  ///< Dim per ghost
+  std::vector<double> value;        ///< Dim per ghost, m
+  Index free = 0;                   ///< number of free dofs
 
   /// Displacements of all particle dofs from the free ones. Cost O(dofs).
   [[nodiscard]] std::vector<double> expand(const double* q) const;

@@ -21,7 +21,8 @@ struct Crack {
 /// the left normal (2D), the side the corners turn counter-clockwise about (3D). Touching a
 /// tip does not cut; passing through a joined end does.
 template <int Dim>
-[[nodiscard]] bool crosses(const Crack<Dim>& crack, const Point<Dim>& a, const Point<Dim>& b, double tolerance);
+[[nodiscard]] bool crosses(const Crack<Dim>& crack, const Point<Dim>& a, const Point<Dim>& b,
+                           double tolerance);
 
 /// The crack reflected about the plane x[axis] = at, with its positive side mirrored as well.
 template <int Dim>

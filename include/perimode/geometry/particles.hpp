@@ -15,9 +15,9 @@ namespace perimode {
 /// `cell` then holds the cell number of each (empty for a cloud).
 template <int Dim>
 struct Particles {
-  std::vector<Point<Dim>> position;   ///< m
-  std::vector<double> volume;         ///< m3 (thickness or area included)
-  std::vector<int> block;             ///< index into block_names; 0 = no named block
+  std::vector<Point<Dim>> position;  ///< m
+  std::vector<double> volume;        ///< m3 (thickness or area included)
+  std::vector<int> block;            ///< index into block_names; 0 = no named block
   std::vector<std::string> block_names = {""};
   std::optional<Grid<Dim>> grid;
   std::vector<Index> cell;

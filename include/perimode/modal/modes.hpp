@@ -29,17 +29,18 @@ struct ModalResult {
   Eigen::VectorXd residual;
   Eigen::MatrixXd shape;  ///< free dofs x modes, x^T M x = 1, the largest component positive
   Eigen::MatrixXd left;   ///< unsymmetric problems: left vectors, y^T M x = 1; else empty
-  /// modes x Dim, kg: (x^T M r_a)(y^T M r_a) with r_a the unit translation of all free dofs (y = x if symmetric).
+  /// modes x Dim, kg: (x^T M r_a)(y^T M r_a) with r_a the unit translation of all free dofs (y = x if
+  /// symmetric).
   Eigen::MatrixXd effective_mass;
 
   int rigid_modes = 0;
-  int mechanisms = 0;        ///< zero-energy modes that are not rigid motions (listed as rigid)
-  double asymmetry = 0.0;    ///< max |K - K^T| / max |K|
-  double imaginary = 0.0;    ///< max |Im lambda| / max |lambda|, unsymmetric problems
-  double largest = 0.0;      ///< bound of (dense: the) largest eigenvalue, (rad/s)^2
+  int mechanisms = 0;      ///< zero-energy modes that are not rigid motions (listed as rigid)
+  double asymmetry = 0.0;  ///< max |K - K^T| / max |K|
+  double imaginary = 0.0;  ///< max |Im lambda| / max |lambda|, unsymmetric problems
+  double largest = 0.0;    ///< bound of (dense: the) largest eigenvalue, (rad/s)^2
   double shift = 0.0;
   int solves = 0;
-  Offset nonzeros = 0;         ///< of K over the free dofs
+  Offset nonzeros = 0;  ///< of K over the free dofs
   Offset factor_nonzeros = 0;
   double seconds_assemble = 0.0, seconds_analyse = 0.0, seconds_factor = 0.0, seconds_iterate = 0.0;
 
@@ -51,7 +52,8 @@ struct ModalResult {
 /// nodes, odd and even walls in 2D and 3D) are found out and solved as such.
 /// Throws invalid_input when there is nothing to solve or more modes are asked for than the body has.
 template <int Dim>
-[[nodiscard]] ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, const Sink& sink = {});
+[[nodiscard]] ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options,
+                                      const Sink& sink = {});
 
 /// Modal assurance criterion |x_a^T M x_b|^2 / ((x_a^T M x_a)(x_b^T M x_b)), modes of a x modes of b.
 /// @pre the same free dofs and masses.

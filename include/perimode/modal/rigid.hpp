@@ -13,6 +13,7 @@ namespace perimode {
 /// shape (free dofs x rigid modes); periodic bodies give their 1 to 3 translations.
 /// Cost O(nonzeros * pieces' motions). docs/theory/04_modal.md.
 template <int Dim>
-[[nodiscard]] Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const Eigen::VectorXd& mass);
+[[nodiscard]] Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness,
+                                          const Eigen::VectorXd& mass);
 
 }  // namespace perimode

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console.hpp"
+
+namespace perimode::cli {
+
+/// What the user said on the command line, besides the command.
+struct Arguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> set;                      ///< key=value
+  std::optional<std::filesystem::path> output;       ///< instead of output.directory
+  bool force = false;                                ///< replace an earlier result
+  bool matrices = false;                             ///< also write K.mtx and M.mtx
+  std::optional<std::filesystem::path> template_to;  ///< `new`: a file instead of standard output
+};
+
+/// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal. Bad input and a lacking
+/// environment are thrown as Error.
+int run_modal(const Arguments& arguments, Console& console);
+int run_check(const Arguments& arguments, Console& console);
+int run_new_modal(const Arguments& arguments, Console& console);
+
+}  // namespace perimode::cli

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "console.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace perimode::cli {
+
+Console::Console(bool quiet)
+    : quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1),
+      start_(std::chrono::steady_clock::now()),
+      log_(std::make_shared<spdlog::logger>("perimode", std::make_shared<spdlog::sinks::stderr_sink_mt>())) {
+  log_->set_pattern("%v");
+}
+
+void Console::erase_line() {
+  if (line_shown_) std::fputs("\r\033[K", stderr);
+  line_shown_ = false;
+}
+
+void Console::info(const std::string& text) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  erase_line();
+  log_->info(text);
+}
+
+void Console::warning(const std::string& text) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  erase_line();
+  log_->warn("perimode: warning: {}", text);
+}
+
+void Console::error(const std::string& text) {
+  const std::scoped_lock lock(mutex_);
+  erase_line();
+  log_->error("perimode: error: {}", text);
+}
+
+void Console::stage(const std::string& name, double fraction) {
+  if (quiet_) return;
+  const std::scoped_lock lock(mutex_);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  if (terminal_) {
+    const std::string share = fraction >= 0.0 ? fmt::format(" {:3.0f} %", 100.0 * fraction) : std::string();
+    std::fputs(fmt::format("\r\033[K{:6.1f} s  {}{}", seconds, name, share).c_str(), stderr);
+    std::fflush(stderr);
+    line_shown_ = true;
+  } else if (name != last_stage_) {
+    log_->info("{:6.1f} s  {}", seconds, name);
+  }
+  last_stage_ = name;
+}
+
+void Console::clear_progress() {
+  const std::scoped_lock lock(mutex_);
+  erase_line();
+  std::fflush(stderr);
+}
+
+Sink Console::sink() {
+  Sink sink;
+  sink.info = [this](std::string_view text) { info(std::string(text)); };
+  sink.warning = [this](std::string_view text) { warning(std::string(text)); };
+  sink.progress = [this](std::string_view name, double fraction) { stage(std::string(name), fraction); };
+  return sink;
+}
+
+}  // namespace perimode::cli

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "perimode/core/sink.hpp"
+
+namespace spdlog {
+class logger;
+}
+
+namespace perimode::cli {
+
+/// The program's voice on standard error: log lines, and one progress line that is rewritten on a
+/// terminal and becomes plain lines when piped. Results go to standard output, elsewhere.
+class Console {
+ public:
+  explicit Console(bool quiet);
+
+  void info(const std::string& text);
+  void warning(const std::string& text);
+  void error(const std::string& text);  ///< never silenced
+  void stage(const std::string& name, double fraction);
+  void clear_progress();
+
+  /// Sinks for the library that end here.
+  [[nodiscard]] Sink sink();
+
+ private:
+  void erase_line();
+
+  bool quiet_;
+  bool terminal_;
+  bool line_shown_ = false;
+  std::string last_stage_;
+  std::chrono::steady_clock::time_point start_;
+  std::shared_ptr<spdlog::logger> log_;
+  std::mutex mutex_;
+};
+
+}  // namespace perimode::cli

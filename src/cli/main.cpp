@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <new>
+#include <string>
+
+#include "commands.hpp"
+#include "interrupt.hpp"
+#include "perimode/core/error.hpp"
+#include "perimode/core/version.hpp"
+#include "perimode/linalg/threads.hpp"
+
+namespace {
+
+using perimode::cli::Arguments;
+using perimode::cli::Console;
+
+constexpr const char* examples = R"(Examples:
+  perimode new modal plate.yaml                 write a commented case to start from
+  perimode check plate.yaml                     read it, predict size, memory and solver
+  perimode modal plate.yaml --threads 2         modes: table, modes.csv, modes.exo, summary.json
+  perimode modal plate.yaml --set body.horizon.ratio=4 --output out/m4
+
+Exit codes: 0 done, 1 ran but did not reach its goal, 2 bad input, 3 environment, 130 interrupted.)";
+
+std::string version_text() {
+  std::string text = "perimode " + perimode::version() + "\n";
+  for (const auto& c : perimode::components()) text += fmt::format("  {:14} {}\n", c.name, c.version);
+  text.pop_back();
+  return text;
+}
+
+int exit_code(perimode::ErrorKind kind) {
+  switch (kind) {
+    case perimode::ErrorKind::invalid_input:
+      return 2;
+    case perimode::ErrorKind::environment:
+      return 3;
+    case perimode::ErrorKind::solver_failure:
+      break;
+  }
+  return 1;
+}
+
+int guarded(const std::function<int(Console&)>& command, bool quiet) {
+  Console console(quiet);
+  try {
+    return command(console);
+  } catch (const perimode::Error& error) {
+    console.error(error.what());
+    return exit_code(error.kind());
+  } catch (const std::bad_alloc&) {
+    console.error(
+        "expected memory for this case, got none left; use a larger spacing, a smaller horizon, or a larger "
+        "machine");
+    return 3;
+  } catch (const std::exception& error) {
+    console.error(fmt::format("unexpected failure: {}", error.what()));
+    return 3;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  perimode::cli::watch_for_interrupts();
+  CLI::App app{"Perimode: vibration modes of bond-based peridynamic bodies", "perimode"};
+  app.footer(examples);
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  app.fallthrough();
+
+  Arguments arguments;
+  int threads = 0;
+  bool quiet = false;
+  std::function<int(Console&)> command;
+  app.add_option("--threads", threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+  app.add_flag("--quiet", quiet, "print results and errors only");
+
+  const auto common = [&](CLI::App* sub) {
+    sub->add_option("case", arguments.case_file, "case file (YAML or JSON)")->required();
+    sub->add_option("--set", arguments.set, "override a value of the case: key=value, key a dotted path")
+        ->take_all()
+        ->allow_extra_args(false);
+  };
+  CLI::App* modal = app.add_subcommand("modal", "compute vibration modes");
+  common(modal);
+  modal->add_option("--output", arguments.output, "result folder, instead of the case's output.directory");
+  modal->add_flag("--force", arguments.force, "replace an earlier result");
+  modal->add_flag("--matrices", arguments.matrices, "also write K.mtx and M.mtx (Matrix Market)");
+  modal->footer(
+      "Example: perimode modal plate.yaml --set analysis.modal.modes=40 --output out/plate --force");
+  modal->callback([&] { command = [&](Console& c) { return run_modal(arguments, c); }; });
+
+  CLI::App* check = app.add_subcommand("check", "read a case and predict what it takes; runs nothing");
+  common(check);
+  check->callback([&] { command = [&](Console& c) { return run_check(arguments, c); }; });
+
+  CLI::App* fresh = app.add_subcommand("new", "write a commented case file");
+  fresh->require_subcommand(1);
+  CLI::App* new_modal = fresh->add_subcommand("modal", "a template for modes");
+  new_modal->add_option("file", arguments.template_to, "where to write it (default: standard output)");
+  new_modal->add_flag("--force", arguments.force, "replace an existing file");
+  new_modal->callback([&] { command = [&](Console& c) { return run_new_modal(arguments, c); }; });
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& e) {
+    return app.exit(e);
+  } catch (const CLI::CallForVersion& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    fmt::print(stderr, "perimode: error: {}\nTry perimode --help.\n", e.what());
+    return 2;
+  }
+  return guarded(
+      [&](Console& console) {
+        if (threads > 0) perimode::set_threads(threads);
+        return command(console);
+      },
+      quiet);
+}

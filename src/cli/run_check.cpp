@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include "commands.hpp"
+#include "machine.hpp"
+#include "perimode/io/case.hpp"
+#include "perimode/modal/plan.hpp"
+
+namespace perimode::cli {
+
+namespace {
+
+template <int Dim>
+int check(const Case& input, Console& console) {
+  refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
+  const Body<Dim> body = build_body<Dim>(input.model, console.sink());
+  console.stage("analysing", -1.0);
+  const ModalPlan plan = plan_modes(body, input.modal.value_or(ModalOptions{}));
+  console.clear_progress();
+  fmt::print("{}{}reads well\n", input.title, input.title.empty() ? "" : ": ");
+  fmt::print("particles        {}", plan.particles);
+  if (plan.ghosts > 0) fmt::print("  (+ {} fictitious)", plan.ghosts);
+  fmt::print("\nbonds            {}", plan.bonds);
+  if (plan.cut > 0) fmt::print("  ({} cut by pre-cracks)", plan.cut);
+  fmt::print("\ndofs             {}\n", plan.dofs);
+  fmt::print("nonzeros of K    {}  ({})\n", plan.nonzeros,
+             plan.asymmetry <= 1e-12 ? "symmetric" : fmt::format("not symmetric, {:.1e}", plan.asymmetry));
+  if (plan.fill.nonzeros > 0) {
+    fmt::print("factor           {} nonzeros, {:.3g} GFlop, {}\n", plan.fill.nonzeros, plan.fill.flops * 1e-9,
+               bytes_text(plan.fill.factor_bytes));
+  }
+  fmt::print("rigid modes      {}\n", plan.rigid);
+  fmt::print("pieces           {}\n", plan.pieces);
+  fmt::print("solver           {}: {}\n", plan.solver, plan.reason);
+  fmt::print("memory           about {} ({} available)\n", bytes_text(plan.memory_bytes),
+             bytes_text(available_memory()));
+  if (!input.modal) fmt::print("analysis         no modal section; predicted for 20 modes\n");
+  std::fflush(stdout);
+  for (const auto& warning : plan.warnings) console.warning(warning);
+  refuse_if_too_large(plan.memory_bytes, "these modes");
+  return 0;
+}
+
+}  // namespace
+
+int run_check(const Arguments& arguments, Console& console) {
+  const Case input = read_case(arguments.case_file, arguments.set);
+  switch (input.model.dimension) {
+    case 1:
+      return check<1>(input, console);
+    case 2:
+      return check<2>(input, console);
+    default:
+      return check<3>(input, console);
+  }
+}
+
+}  // namespace perimode::cli
