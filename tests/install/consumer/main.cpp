@@ -5,6 +5,7 @@
 
 int main() {
   std::cout << "perimode " << perimode::version() << '\n';
-  for (const perimode::Component& component : perimode::components())
+  for (const perimode::Component& component : perimode::components()) {
     std::cout << component.name << ' ' << component.version << '\n';
+  }
 }
