@@ -14,6 +14,7 @@ find_package(fmt REQUIRED CONFIG)
 find_package(spdlog REQUIRED CONFIG)
 find_package(nlohmann_json REQUIRED CONFIG)
 find_package(nanoflann REQUIRED CONFIG)
+find_package(CLI11 REQUIRED CONFIG)
 
 # Linked into the library, so whoever links the static library needs them again (perimode-config.cmake.in).
 set(perimode_linked
@@ -22,9 +23,10 @@ set(perimode_linked
 # Headers alone: nobody downstream meets them.
 set(perimode_header_only nlohmann_json::nlohmann_json nanoflann::nanoflann)
 
-# For tests and benchmarks, which compare with these libraries directly. Never installed.
+# For the program, and for tests and benchmarks, which use these libraries directly. Never installed.
 add_library(perimode_dependencies INTERFACE)
-target_link_libraries(perimode_dependencies INTERFACE Eigen3::Eigen ${perimode_linked} ${perimode_header_only})
+target_link_libraries(perimode_dependencies INTERFACE
+  Eigen3::Eigen ${perimode_linked} ${perimode_header_only} CLI11::CLI11)
 
 include(FeatureSummary)
 set_package_properties(Eigen3 PROPERTIES DESCRIPTION "dense and sparse matrices (public headers)")
@@ -41,3 +43,4 @@ set_package_properties(fmt PROPERTIES DESCRIPTION "text")
 set_package_properties(spdlog PROPERTIES DESCRIPTION "log lines of the program")
 set_package_properties(nlohmann_json PROPERTIES DESCRIPTION "summaries")
 set_package_properties(nanoflann PROPERTIES DESCRIPTION "neighbour search in clouds")
+set_package_properties(CLI11 PROPERTIES DESCRIPTION "command line of the program")

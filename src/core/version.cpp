@@ -49,7 +49,7 @@ std::string version() { return build_info::version; }
 
 std::vector<Component> components() {
   return {
-      {"compiler", __VERSION__},
+      {"compiler", build_info::compiler},
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"CHOLMOD", cholmod_text()},
       {"UMFPACK", dotted(UMFPACK_MAIN_VERSION, UMFPACK_SUB_VERSION, UMFPACK_SUBSUB_VERSION)},
