@@ -167,8 +167,8 @@ std::vector<ClosedFormMode> lowest_modes(const Model& model, const SeparableBody
       make_family<Dim>(body.spacing, body.medium.horizon, model.volume_correction, model.self_cell);
   const std::vector<double> rates = bond_rates<Dim>(body.medium, family, model.calibration);
   std::vector<Candidate> candidates = all_modes<Dim>(body, family, rates);
-  const auto needed =
-      static_cast<std::ptrdiff_t>(std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(count)));
+  const auto needed = static_cast<std::ptrdiff_t>(
+      std::min<std::size_t>(candidates.size(), static_cast<std::size_t>(std::max(count, 0))));
   std::partial_sort(candidates.begin(), candidates.begin() + needed, candidates.end(),
                     [](const Candidate& a, const Candidate& b) {
                       return std::tie(a.squared, a.k, a.branch) < std::tie(b.squared, b.k, b.branch);
