@@ -38,6 +38,8 @@ inline void fix_face(Model& m, int axis, bool upper, int layers, std::vector<int
   m.boundary.push_back({Fix{std::move(components), Region{FaceRegion{{axis, upper}, layers, 0.0}, {}}}, {}});
 }
 
-inline void add_crack(Model& m, std::vector<Coordinates> points) { m.precracks.push_back({std::move(points), {}}); }
+inline void add_crack(Model& m, std::vector<Coordinates> points) {
+  m.precracks.push_back({std::move(points), {}});
+}
 
 }  // namespace perimode::test

@@ -78,7 +78,8 @@ TEST(Stiffness, EqualsTheSumOfRankOneMatricesForEveryKernelAndCalibration) {
 }
 
 TEST(Stiffness, EqualsTheSumOfRankOneMatricesForEveryWall) {
-  for (auto type : {WallType::odd, WallType::even, WallType::mirror, WallType::antimirror, WallType::zero_layer}) {
+  for (auto type :
+       {WallType::odd, WallType::even, WallType::mirror, WallType::antimirror, WallType::zero_layer}) {
     Model m = box_model({6, 5}, 0.5, 2.0);
     add_wall(m, 0, false, type);
     add_wall(m, 1, true, WallType::mirror);
@@ -199,8 +200,8 @@ TEST(Calibration, DiscreteStoresTheDilationEnergyOfCompleteFamilies) {
 }
 
 TEST(Calibration, SelfImagesOfThinPeriodicBodiesCount) {
-  // One particle: all its bonds are to its own images, so none is left to carry energy, but a second one makes
-  // the family complete: its energy with the missing self-images added is the continuum's.
+  // One particle: all its bonds are to its own images, so none is left to carry energy, but a second one
+  // makes the family complete: its energy with the missing self-images added is the continuum's.
   Model m = box_model({2}, 1.0, 3.0);
   m.periodic[0] = true;
   m.calibration = Calibration::discrete;
@@ -226,8 +227,9 @@ TEST(Calibration, DiscreteIgnoresTheCrackAndDiscreteCutDoesNot) {
 
 TEST(Calibration, StrainEnergyErrorsOfTheLattice) {
   // [ganzenmueller2013] original calibration, 3D, delta^2/dx^2: relative energy error N/((4/3) pi m^3) - 1.
-  const std::vector<std::pair<double, double>> table = {{3, .19454594}, {4, -.04507034}, {5, .19576107},  {6, .29949467},
-                                                        {8, -.02934647}, {9, .07871684}, {12, .02225566}, {16, -.04507034}};
+  const std::vector<std::pair<double, double>> table = {{3, .19454594},  {4, -.04507034}, {5, .19576107},
+                                                        {6, .29949467},  {8, -.02934647}, {9, .07871684},
+                                                        {12, .02225566}, {16, -.04507034}};
   for (const auto& [square, error] : table) {
     Model m = box_model({12, 12, 12}, 1.0, std::sqrt(square));
     m.periodic = {true, true, true};

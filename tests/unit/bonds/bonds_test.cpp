@@ -28,8 +28,9 @@ TEST(GridBonds, OpenBoxHasTheKnownNumberOfBonds) {
 
 TEST(GridBonds, BothEndsHoldTheBond) {
   const auto p = box<2>({7, 5});
-  const Bonds<2> b = make_grid_bonds(p, make_family<2>(1.0, 2.0, VolumeCorrection::none),
-                                     {Beyond::periodic_image, Beyond::periodic_image, Beyond::nothing, Beyond::nothing});
+  const Bonds<2> b =
+      make_grid_bonds(p, make_family<2>(1.0, 2.0, VolumeCorrection::none),
+                      {Beyond::periodic_image, Beyond::periodic_image, Beyond::nothing, Beyond::nothing});
   std::map<std::pair<Index, Index>, int> ends;
   for (Index i = 0; i < p.count(); ++i) {
     for_each_bond(b, i, Which::alive, [&](const BondEnd<2>& e) { ++ends[{i, e.neighbour}]; });
@@ -85,14 +86,16 @@ TEST(CutBonds, CountEqualsHandCountOfALattice) {
 
 TEST(CutBonds, CrackThroughAPeriodicFaceCutsImages) {
   const auto p = box<2>({6, 6});
-  Bonds<2> b = make_grid_bonds(p, make_family<2>(1.0, 1.0, VolumeCorrection::none),
-                               {Beyond::periodic_image, Beyond::periodic_image, Beyond::nothing, Beyond::nothing});
+  Bonds<2> b =
+      make_grid_bonds(p, make_family<2>(1.0, 1.0, VolumeCorrection::none),
+                      {Beyond::periodic_image, Beyond::periodic_image, Beyond::nothing, Beyond::nothing});
   const Crack<2> crack{{Point<2>(0.0, 0.0), Point<2>(0.0, 6.0)}, {}};
   EXPECT_EQ(cut_bonds(b, p, {crack}, 1.0), 6);
 }
 
 TEST(CutBonds, CrackMeetingAMirrorHasNoTipThere) {
-  // Horizon 2: the bond from (4.5, 0.5) to the ghost at (5.5, -0.5) crosses x = 5 at y = 0, where crack and image meet.
+  // Horizon 2: the bond from (4.5, 0.5) to the ghost at (5.5, -0.5) crosses x = 5 at y = 0, where crack and
+  // image meet.
   const auto p = box<2>({10, 10});
   Bonds<2> b = make_grid_bonds(p, make_family<2>(1.0, 2.0, VolumeCorrection::none),
                                {Beyond::nothing, Beyond::nothing, Beyond::ghosts, Beyond::nothing});
@@ -166,7 +169,8 @@ TEST(CloudBonds, WeightsAreSymmetric) {
 TEST(CloudBonds, AGridAsACloudHasTheBondsOfTheGrid) {
   auto p = box<2>({12, 9});
   const Bonds<2> grid = make_grid_bonds(p, make_family<2>(1.0, 3.0, VolumeCorrection::none), {});
-  const Bonds<2> cloud = make_cloud_bonds(p, std::vector<double>(p.count(), 3.0), VolumeCorrection::none, 1.0);
+  const Bonds<2> cloud =
+      make_cloud_bonds(p, std::vector<double>(p.count(), 3.0), VolumeCorrection::none, 1.0);
   EXPECT_EQ(count_bonds(grid, p.count()), count_bonds(cloud, p.count()));
 }
 

@@ -83,7 +83,8 @@ TEST(BoundaryMap, MatricesReproduceTheMap) {
   for (std::size_t d = 0; d < particles.size(); ++d) EXPECT_EQ(all[d], particles[d]);
   for (std::size_t g = 0; g < body.boundary.image.size(); ++g) {
     for (int a = 0; a < 2; ++a) {
-      const double expected = body.boundary.coefficient[2 * g + a] * particles[2 * body.boundary.image[g] + a];
+      const double expected =
+          body.boundary.coefficient[2 * g + a] * particles[2 * body.boundary.image[g] + a];
       EXPECT_EQ(all[particles.size() + 2 * g + a], expected);
     }
   }

@@ -17,9 +17,7 @@ TEST(Error, LeavesOutWhatIsUnknown) {
   EXPECT_STREQ(e.what(), "expected a number");
 }
 
-TEST(Where, WithoutALineIsTheFile) {
-  EXPECT_EQ((Where{"case.yaml", 0, 0}.text()), "case.yaml");
-}
+TEST(Where, WithoutALineIsTheFile) { EXPECT_EQ((Where{"case.yaml", 0, 0}.text()), "case.yaml"); }
 
 }  // namespace
 }  // namespace perimode

@@ -56,7 +56,8 @@ TEST(Crack, OneDimensionIsAPoint) {
 }
 
 TEST(Crack, PolygonCutsInsideOnly) {
-  const Crack<3> l{{Point<3>(0, 0, 0), Point<3>(2, 0, 0), Point<3>(2, 1, 0), Point<3>(1, 1, 0), Point<3>(1, 2, 0), Point<3>(0, 2, 0)},
+  const Crack<3> l{{Point<3>(0, 0, 0), Point<3>(2, 0, 0), Point<3>(2, 1, 0), Point<3>(1, 1, 0),
+                    Point<3>(1, 2, 0), Point<3>(0, 2, 0)},
                    std::vector<bool>(6, false)};  // an L: not convex
   EXPECT_TRUE(crosses<3>(l, {0.5, 1.5, -1}, {0.5, 1.5, 1}, tol));
   EXPECT_FALSE(crosses<3>(l, {1.5, 1.5, -1}, {1.5, 1.5, 1}, tol));
