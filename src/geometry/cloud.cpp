@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <compare>
 #include <fstream>
 #include <limits>
 #include <numeric>
@@ -92,7 +93,7 @@ class CloudReader {
     }
   }
 
-  double number(const Field& field, std::string_view name) const {
+  [[nodiscard]] double number(const Field& field, std::string_view name) const {
     std::string_view text = field.text;
     if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
     double value = 0.0;
@@ -137,7 +138,7 @@ class CloudReader {
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
       const auto order_ij = std::lexicographical_compare_three_way(at(i), at(i + 1), at(j), at(j + 1));
-      return order_ij != 0 ? order_ij < 0 : i < j;
+      return std::is_neq(order_ij) ? std::is_lt(order_ij) : i < j;
     });
     for (std::size_t k = 1; k < order.size(); ++k) {
       if (std::equal(at(order[k]), at(order[k] + 1), at(order[k - 1]))) {

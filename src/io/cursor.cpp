@@ -133,6 +133,7 @@ std::vector<Cursor> Cursor::items(const char* example) const {
 std::vector<Cursor> Cursor::entries(const char* example) const {
   if (node_->kind != CaseNode::Kind::map) complain("a map", fmt::format("for example {}", example));
   std::vector<Cursor> result;
+  result.reserve(node_->children.size());
   for (const CaseNode& child : node_->children) result.emplace_back(child, path_ + "." + child.key);
   return result;
 }

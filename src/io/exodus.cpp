@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <initializer_list>
 #include <utility>
 
 #include "perimode/core/error.hpp"
@@ -14,7 +15,8 @@ namespace perimode {
 
 namespace {
 
-constexpr int longest_name = 255;
+constexpr std::size_t usual_name = 32;  ///< readers of old expect no longer ones
+constexpr std::size_t longest_name = 255;
 
 /// The library takes names as char**, which it does not change.
 std::vector<char*> pointers(std::vector<std::string>& names) {
@@ -41,6 +43,14 @@ std::vector<SphereBlock> sphere_blocks(const ExodusMesh& mesh) {
     blocks[mesh.block[i]].nodes.push_back(static_cast<int>(i) + 1);
   std::erase_if(blocks, [](const SphereBlock& block) { return block.nodes.empty(); });
   return blocks;
+}
+
+int name_length(std::initializer_list<const std::vector<std::string>*> lists) {
+  std::size_t length = usual_name;
+  for (const auto* names : lists) {
+    for (const std::string& name : *names) length = std::max(length, name.size());
+  }
+  return static_cast<int>(std::min(length, longest_name));
 }
 
 }  // namespace
@@ -77,6 +87,9 @@ ExodusWriter::ExodusWriter(const std::filesystem::path& file, const ExodusMesh& 
   id_ = ex_create(file.c_str(), EX_CLOBBER | EX_LARGE_MODEL, &word, &stored);
   if (id_ < 0) check(id_, "create");
   try {
+    check(ex_set_option(id_, EX_OPT_MAX_NAME_LENGTH,
+                        name_length({&mesh.block_names, &global_names, &nodal_names})),
+          "set up");
     write_mesh(mesh);
     declare(EX_GLOBAL, global_names);
     declare(EX_NODAL, nodal_names);
@@ -103,7 +116,6 @@ void ExodusWriter::check(int code, const char* what) const {
 
 void ExodusWriter::write_mesh(const ExodusMesh& mesh) {
   const std::vector<SphereBlock> blocks = sphere_blocks(mesh);
-  check(ex_set_option(id_, EX_OPT_MAX_NAME_LENGTH, longest_name), "set up");
   ex_init_params init = {};
   std::strncpy(init.title, mesh.title.c_str(), MAX_LINE_LENGTH);
   init.num_dim = 3;
