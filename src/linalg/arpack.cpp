@@ -56,16 +56,11 @@ Eigen::MatrixXd largest_vectors(ShiftInvert& op, const Eigen::MatrixXd& deflated
   return vector;
 }
 
-}  // namespace
-
-EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
-                  const Wanted& wanted, const SearchSettings& settings) {
-  constexpr Eigen::Index spare = 2;  // to see the gap behind the last wanted one
-  const Eigen::Index room = op.size() - deflated.cols();
-  if (wanted.floor > 0.0 || wanted.count + spare >= room)  // not what ARPACK can be asked for
-    return block_lanczos(op, deflated, start, wanted, settings);
+/// The `count` largest pairs, whether or not a gap follows them, and the Ritz vectors beyond `wanted`
+/// and its cluster.
+EigenPairs largest_pairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, int count, Eigen::Index wanted,
+                         const SearchSettings& settings) {
   EigenPairs out;
-  const auto count = static_cast<int>(wanted.count + spare);
   const Eigen::MatrixXd vector = largest_vectors(op, deflated, count, settings);
   out.vector = Eigen::MatrixXd(op.size(), 0);
   out.neighbourhood = out.vector;
@@ -85,17 +80,32 @@ EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen:
   const Eigen::MatrixXd ritz = product(vector, rotation);
   image = product(image, rotation);
   const Eigen::VectorXd residual = (image - ritz * sorted.asDiagonal()).colwise().norm();
-  Eigen::Index end = wanted.count;
-  while (end < count - 1 && same_cluster(op, sorted[end - 1], sorted[end])) ++end;
+  Eigen::Index end = wanted;
+  while (end < count && same_cluster(op, sorted[end - 1], sorted[end])) ++end;
   out.converged = true;
   for (Eigen::Index i = 0; i < end; ++i)
     out.converged =
         out.converged && is_converged(op, sorted[i], residual[i], std::abs(sorted[0]), settings.tolerance);
   out.theta = sorted.head(end);
   out.vector = (image * sorted.cwiseInverse().asDiagonal()).leftCols(end);
-  out.next = std::abs(sorted[end]) + residual[end];
+  out.next = end < count ? std::abs(sorted[end]) + residual[end] : std::abs(sorted[end - 1]);
   out.neighbourhood = ritz.rightCols(count - end);
   return out;
+}
+
+}  // namespace
+
+EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
+                  const Wanted& wanted, const SearchSettings& settings) {
+  const Eigen::Index room = op.size() - deflated.cols();
+  // A few more than wanted, until the gap behind the last cluster comes into sight.
+  for (Eigen::Index spare = 2;; spare *= 2) {
+    const Eigen::Index count = wanted.count + spare;
+    if (wanted.floor > 0.0 || count >= room)  // not what ARPACK can be asked for
+      return block_lanczos(op, deflated, start, wanted, settings);
+    EigenPairs out = largest_pairs(op, deflated, static_cast<int>(count), wanted.count, settings);
+    if (!out.converged || out.theta.size() < count) return out;
+  }
 }
 
 }  // namespace perimode

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <omp.h>
+
 #include <algorithm>
+#include <limits>
+#include <string>
 #include <utility>
 
 #include "cholmod_session.hpp"
 #include "perimode/linalg/factor.hpp"
+#include "supernodal_solve.hpp"
 
 namespace perimode {
 namespace {
@@ -74,6 +79,19 @@ cholmod_factor* analyse(CholmodSession& session, UpperTriangle& upper, const std
   return factor;
 }
 
+/// CHOLMOD asks for four threads in small copying loops, whatever the caller set; on fewer cores they
+/// only wait for each other. In this scope its loops run on the calling thread (BLAS is not OpenMP).
+class SerialLoops {
+ public:
+  SerialLoops() : levels_(omp_get_max_active_levels()) { omp_set_max_active_levels(0); }
+  ~SerialLoops() { omp_set_max_active_levels(levels_); }
+  SerialLoops(const SerialLoops&) = delete;
+  SerialLoops& operator=(const SerialLoops&) = delete;
+
+ private:
+  int levels_;
+};
+
 /// Dense supernodes store explicit zeros: 5 to 16 percent over the true count on peridynamic
 /// matrices with 20 thousand to a million dofs.
 constexpr double supernodal_excess = 1.16;
@@ -109,12 +127,7 @@ struct CholeskyFactor::Handle {
     fill = estimate(*session.get(), static_cast<double>(upper.row.size()), pattern.rows);
     fill.factor_bytes = 8.0 * static_cast<double>(factor->xsize);
   }
-  ~Handle() {
-    cholmod_free_dense(&solution, session.get());
-    cholmod_free_dense(&work_y, session.get());
-    cholmod_free_dense(&work_e, session.get());
-    cholmod_free_factor(&factor, session.get());
-  }
+  ~Handle() { cholmod_free_factor(&factor, session.get()); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
 
@@ -123,10 +136,7 @@ struct CholeskyFactor::Handle {
   UpperTriangle upper;
   cholmod_factor* factor;
   FillEstimate fill;
-  // Kept from solve to solve.
-  cholmod_dense* solution = nullptr;
-  cholmod_dense* work_y = nullptr;
-  cholmod_dense* work_e = nullptr;
+  std::vector<double> work;  // of solve()
 };
 
 CholeskyFactor::CholeskyFactor(const Csr& pattern, std::span<const Index> node_of_dof)
@@ -145,6 +155,7 @@ FactorStatus CholeskyFactor::factorize(const Csr& matrix, double sigma, const Ei
   handle_->upper.fill(matrix, sigma, mass);
   cholmod_sparse view = handle_->upper.view();
   cholmod_common* common = handle_->session.get();
+  const SerialLoops serial;
   const int fine = cholmod_factorize(&view, handle_->factor, common);
   handle_->session.check(fine != 0, "factorisation");
   constexpr double smallest_pivot = 1e-13;
@@ -154,19 +165,9 @@ FactorStatus CholeskyFactor::factorize(const Csr& matrix, double sigma, const Ei
 }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  cholmod_dense view = {};
-  view.nrow = b.rows();
-  view.ncol = b.cols();
-  view.d = b.outerStride();
-  view.nzmax = view.d * view.ncol;
-  view.x = const_cast<double*>(b.data());  // CHOLMOD reads only
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  const int fine = cholmod_solve2(CHOLMOD_A, handle_->factor, &view, nullptr, &handle_->solution, nullptr,
-                                  &handle_->work_y, &handle_->work_e, handle_->session.get());
-  handle_->session.check(fine != 0, "solution");
-  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(handle_->solution->x), b.rows(),
-                                           b.cols());
+  Eigen::MatrixXd x;
+  supernodal_solve(*handle_->factor, b, x, handle_->work);
+  return x;
 }
 
 const FillEstimate& CholeskyFactor::fill() const { return handle_->fill; }

@@ -8,7 +8,6 @@
 #include "sparse_engine.hpp"
 
 namespace perimode {
-namespace {
 
 void check(const EigenProblem& problem, const EigenOptions& options) {
   if (problem.stiffness == nullptr || problem.mass == nullptr)
@@ -35,8 +34,6 @@ void check(const EigenProblem& problem, const EigenOptions& options) {
                               : std::to_string(options.count),
                    .remedy = "correct the request"});
 }
-
-}  // namespace
 
 EigenResult solve_eigen(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
   check(problem, options);

@@ -102,7 +102,7 @@ EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& option
     if (!certified)
       out.message = "found " + std::to_string(found.pairs.theta.size() + known.cols()) +
                     " eigenvalues below " + std::to_string(out.certificate.at) + ", but the certificate (" +
-                    out.certificate.method + ") sees more";
+                    out.certificate.method + ") disagrees";
   } else {
     out.message = found.message;
   }

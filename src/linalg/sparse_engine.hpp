@@ -8,6 +8,9 @@
 
 namespace perimode {
 
+/// Throws invalid_input unless sizes agree, masses are positive and the request makes sense.
+void check(const EigenProblem& problem, const EigenOptions& options);
+
 /// The lowest modes by a positive definite factor (sigma <= 0).
 [[nodiscard]] EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& options,
                                        const Sink& sink);

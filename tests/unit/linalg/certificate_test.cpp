@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "linalg/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "linalg/search.hpp"
+#include "matrices.hpp"
+#include "perimode/linalg/factor.hpp"
+
+namespace perimode {
+namespace {
+
+/// A periodic lattice (1, 6, 12 copies at the bottom) with its 19 lowest modes found, from which a
+/// test can take copies away, as a solver that lost them would.
+class MissedMode : public testing::Test {
+ protected:
+  MissedMode() : factor_(k_, std::span<const Index>()) {
+    EXPECT_EQ(factor_.factorize(k_, 0.0, mass_), FactorStatus::done);
+    op_.root_mass = mass_.cwiseSqrt();
+    op_.solve = [this](const MatrixView& b) { return factor_.solve(b); };
+    found_ = search(op_, Eigen::MatrixXd(k_.rows, 0), {.count = 19}, {}, block_lanczos, {});
+  }
+
+  Csr k_ = test::periodic_lattice(8, 0.1);
+  Eigen::VectorXd mass_ = Eigen::VectorXd::Ones(k_.rows);
+  CholeskyFactor factor_;
+  ShiftInvert op_;
+  SearchResult found_;
+};
+
+TEST_F(MissedMode, InertiaAcceptsTheCompleteSet) {
+  const Certificate certificate =
+      certify_by_inertia({.stiffness = &k_, .mass = &mass_}, op_.eigenvalue(found_.cut),
+                         found_.pairs.theta.size(), factor_.order());
+  EXPECT_TRUE(certificate.complete);
+  EXPECT_EQ(certificate.count, 19);
+}
+
+TEST_F(MissedMode, InertiaNoticesALostCopy) {
+  const Certificate certificate =
+      certify_by_inertia({.stiffness = &k_, .mass = &mass_}, op_.eigenvalue(found_.cut),
+                         found_.pairs.theta.size() - 1, factor_.order());
+  EXPECT_FALSE(certificate.complete);
+  EXPECT_EQ(certificate.count, 19);
+}
+
+TEST_F(MissedMode, RestartAcceptsTheCompleteSet) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    EXPECT_TRUE(certify_by_restart(op_, found_.pairs.vector, found_.cut, 4, 2, seed).complete);
+}
+
+TEST_F(MissedMode, RestartNoticesALostCopyOfAnyMode) {
+  for (Eigen::Index lost = 0; lost < 19; ++lost) {
+    Eigen::MatrixXd left(k_.rows, 18);
+    left << found_.pairs.vector.leftCols(lost), found_.pairs.vector.rightCols(18 - lost);
+    EXPECT_FALSE(certify_by_restart(op_, left, found_.cut, 4, 1, 17 + lost).complete) << lost;
+    EXPECT_FALSE(
+        certify_by_restart(op_, beside(left, found_.pairs.neighbourhood), found_.cut, 4, 1, lost).complete)
+        << lost;
+  }
+}
+
+TEST_F(MissedMode, SearchFindsLostCopiesAgain) {
+  found_.pairs.vector = found_.pairs.vector.leftCols(5).eval();
+  found_.pairs.theta.conservativeResize(5);
+  complete(op_, Eigen::MatrixXd(k_.rows, 0), {.count = 19, .floor = found_.cut}, {}, found_, {});
+  EXPECT_TRUE(found_.clean);
+  EXPECT_EQ(found_.pairs.theta.size(), 19);
+}
+
+TEST_F(MissedMode, OneColumnBlocksLoseNoCopies) {
+  const SearchResult single =
+      search(op_, Eigen::MatrixXd(k_.rows, 0), {.count = 27}, {.block = 1}, block_lanczos, {});
+  ASSERT_TRUE(single.clean);
+  const std::vector<double> all = test::periodic_lattice_eigenvalues(8, 0.1);
+  for (int i = 0; i < 27; ++i) EXPECT_NEAR(op_.eigenvalue(single.pairs.theta[i]), all[i], 1e-10);
+}
+
+TEST(InertiaIsCheap, ForSmallMatricesAndNotForLargeFactors) {
+  EXPECT_TRUE(inertia_is_cheap(1000, 100'000, 1e8));
+  EXPECT_FALSE(inertia_is_cheap(75'000, 27'000'000, 2e10));  // plane lattice of 200 x 200
+}
+
+}  // namespace
+}  // namespace perimode
