@@ -140,11 +140,13 @@ struct CholeskyFactor::Handle {
 };
 
 CholeskyFactor::CholeskyFactor(const Csr& pattern, std::span<const Index> node_of_dof)
-    : CholeskyFactor(pattern, fill_reducing_order(pattern, node_of_dof)) {}
+    : CholeskyFactor(with_order(pattern, fill_reducing_order(pattern, node_of_dof))) {}
 
-CholeskyFactor::CholeskyFactor(const Csr& pattern, std::vector<Index> order) {
+CholeskyFactor::CholeskyFactor(std::unique_ptr<Handle> handle) : handle_(std::move(handle)) {}
+
+CholeskyFactor CholeskyFactor::with_order(const Csr& pattern, std::vector<Index> order) {
   refuse_wide_pattern(pattern);
-  handle_ = std::make_unique<Handle>(pattern, std::move(order));
+  return CholeskyFactor(std::make_unique<Handle>(pattern, std::move(order)));
 }
 
 CholeskyFactor::~CholeskyFactor() = default;

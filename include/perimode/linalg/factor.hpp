@@ -34,8 +34,8 @@ class CholeskyFactor {
   /// Orders and analyses. Throws Error(environment) if L needs 2^31 entries or more, or if memory
   /// runs out.
   CholeskyFactor(const Csr& pattern, std::span<const Index> node_of_dof);
-  /// The same with a given order.
-  CholeskyFactor(const Csr& pattern, std::vector<Index> order);
+  /// The same with a given order of elimination.
+  [[nodiscard]] static CholeskyFactor with_order(const Csr& pattern, std::vector<Index> order);
   ~CholeskyFactor();
   CholeskyFactor(CholeskyFactor&&) noexcept;
   CholeskyFactor& operator=(CholeskyFactor&&) noexcept;
@@ -54,6 +54,7 @@ class CholeskyFactor {
 
  private:
   struct Handle;
+  explicit CholeskyFactor(std::unique_ptr<Handle> handle);
   std::unique_ptr<Handle> handle_;
 };
 

@@ -16,7 +16,7 @@ namespace {
 /// test can take copies away, as a solver that lost them would.
 class MissedMode : public testing::Test {
  protected:
-  MissedMode() : factor_(k_, std::span<const Index>()) {
+  MissedMode() : factor_(k_, {}) {
     EXPECT_EQ(factor_.factorize(k_, 0.0, mass_), FactorStatus::done);
     op_.root_mass = mass_.cwiseSqrt();
     op_.solve = [this](const MatrixView& b) { return factor_.solve(b); };
