@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <limits>
 #include <new>
 #include <string>
 
@@ -15,6 +17,14 @@
 #include "perimode/linalg/threads.hpp"
 
 namespace {
+
+/// Keeps freed memory for the next work array instead of handing it back: solvers allocate and free the
+/// same hundreds of megabytes many times over, and fresh pages cost as much as the arithmetic on them.
+void keep_freed_memory() {
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+  mallopt(M_TOP_PAD, 64 << 20);
+}
 
 using perimode::cli::Arguments;
 using perimode::cli::Console;
@@ -67,6 +77,7 @@ int guarded(const std::function<int(Console&)>& command, bool quiet) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   perimode::cli::watch_for_interrupts();
   CLI::App app{"Perimode: vibration modes of bond-based peridynamic bodies", "perimode"};
   app.footer(examples);
