@@ -2,8 +2,10 @@
 #include "io/case_node.hpp"
 
 #include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -152,6 +154,42 @@ void require_text(const std::string& text, const Where& base) {
                  "give a YAML or JSON file", where});
 }
 
+/// Notes where documents begin.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {
+  }
+  void OnMapEnd() override {}
+};
+
+/// What follows the first document would be read by nobody: a second document, or text that ends
+/// the first one too early.
+void require_one_document(const std::string& text, const Where& where) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+  }
+  if (starts.marks.size() < 2) return;
+  const Where second = place(starts.marks[1], where);
+  const std::string rest = text.substr(std::min(static_cast<std::size_t>(starts.marks[1].pos), text.size()));
+  if (rest.starts_with("---")) {
+    invalid_input({"one YAML document", "a second one", "remove the line `---`", second});
+  }
+  invalid_input({"the end of the YAML text", fmt::format("'{}'", rest.substr(0, 1)),
+                 "remove it, or check brackets and indentation before it", second});
+}
+
 }  // namespace
 
 const CaseNode* CaseNode::find(std::string_view name) const {
@@ -179,13 +217,8 @@ std::string describe(const CaseNode& node) {
 CaseNode parse_case_text(const std::string& text, const Where& where) {
   require_text(text, where);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty()) return {.where = where};
-    if (documents.size() > 1) {
-      invalid_input({"one YAML document", fmt::format("{}", documents.size()), "remove the lines `---`",
-                     place(documents[1].Mark(), where)});
-    }
-    return Converter(text, where).convert(documents.front());
+    require_one_document(text, where);
+    return Converter(text, where).convert(YAML::Load(text));
   } catch (const YAML::Exception& error) {
     invalid_input({"YAML", fmt::format("a syntax error ({})", error.msg),
                    "check indentation (spaces, no tabs), brackets, quotes and the space after ':' near here",
