@@ -44,8 +44,11 @@ struct Interior {
                      .positive = false,
                      .root_mass = problem.mass->cwiseSqrt(),
                      .solve = [&](const MatrixView& b) { return factor.solve(b); }};
-      const Eigen::MatrixXd image = op.apply(Eigen::MatrixXd::Ones(op.size(), 1));
-      constexpr double blow_up = 1e12;
+      // A vector without symmetries, so that it has a part along whatever mode sigma may have hit.
+      const Eigen::VectorXd probe =
+          Eigen::VectorXd::LinSpaced(op.size(), 1.0, static_cast<double>(op.size())).array().square().sin();
+      const Eigen::MatrixXd image = op.apply(probe);
+      constexpr double blow_up = 1e9;
       const bool regular =
           image.allFinite() && image.norm() * std::abs(sigma) < blow_up * std::sqrt(op.size());
       if (!regular && trial < 3) {
