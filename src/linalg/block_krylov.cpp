@@ -1,29 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "block_krylov.hpp"
 
-#include <lapacke.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "perimode/core/error.hpp"
-
 namespace perimode {
-
-Eigen::VectorXd symmetric_eigen(Eigen::MatrixXd& h) {
-  Eigen::VectorXd value(h.rows());
-  const auto n = static_cast<lapack_int>(h.rows());
-  if (n == 0) return value;
-  const lapack_int info = LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', n, h.data(), n, value.data());
-  if (info != 0)
-    throw Error(ErrorKind::solver_failure,
-                "dense eigenvalues: LAPACK dsyevd failed with code " + std::to_string(info));
-  return value;
-}
 
 Eigen::MatrixXd random_columns(Eigen::Index rows, Eigen::Index count, std::mt19937_64& random) {
   // Box-Muller on the generator's own bits: the same numbers with every standard library.

@@ -75,7 +75,7 @@ Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut, int bl
   Probe out;
   out.found = Eigen::MatrixXd(op.size(), 0);
   if (room <= 0) return out;
-  constexpr double shy = 0.03;
+  constexpr double shy = 0.1;
   const int width = static_cast<int>(std::min<Eigen::Index>(block, room));
   constexpr int most_steps = 40;
   BlockKrylov space(op, deflated, {}, width, (most_steps + 2) * width, seed);
