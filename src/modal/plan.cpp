@@ -84,7 +84,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
 
   const bool small = dofs <= (symmetric ? EigenOptions{}.dense_limit : unsymmetric_dense_limit);
   if (options.solver == ModalSolver::dense || (options.solver == ModalSolver::automatic && small)) {
-    plan.solver = symmetric ? "dense" : "dense unsymmetric";
+    plan.solver = "dense";
     plan.reason = options.solver == ModalSolver::dense
                       ? "asked for"
                       : fmt::format("{} dofs are few: all modes by LAPACK", plan.dofs);
@@ -98,7 +98,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
     const double basis = std::max(100.0, 3.0 * wanted + 40.0) + 2.0 * plan.rigid;
     solving = plan.fill.peak_bytes + 8.0 * dofs * (basis + 3.0 * wanted);
   } else {
-    plan.solver = "arpack unsymmetric";
+    plan.solver = "arpack";
     plan.reason = "K is not symmetric under this boundary: LU factor and Arnoldi iteration";
     plan.fill = predict_fill(k, particle_of_free_dof(body));
     // UMFPACK keeps L and U and a working copy; its column order fills more than a symmetric one.

@@ -2,6 +2,7 @@
 #include "perimode/modal/rigid.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -88,12 +89,20 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const E
     }
     const Eigen::MatrixXd energy = basis.transpose() * force[p] * basis;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> null(energy);
-    for (Eigen::Index k = 0; k < energy.rows(); ++k) {
-      // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free
-      // ones.
-      if (null.eigenvalues()[k] <= std::pow(1e-7 * largest, 2))
-        found.push_back({p, basis * null.eigenvectors().col(k)});
+    // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free
+    // ones; ascending, so the free ones come first.
+    const Eigen::Index free = (null.eigenvalues().array() <= std::pow(1e-7 * largest, 2)).count();
+    if (free == 0) continue;
+    Eigen::MatrixXd combination = basis * null.eigenvectors().leftCols(free);
+    // Any basis will do; the one that starts with pure translations reads best.
+    const Eigen::MatrixXd part = combination.transpose() * gram[p] * unit;
+    std::vector<Eigen::Index> moving;
+    for (Eigen::Index k = 0; k < R; ++k) {
+      if (part.col(k).norm() > 1e-6) moving.push_back(k);
     }
+    const Eigen::HouseholderQR<Eigen::MatrixXd> ordered(part(Eigen::all, moving));
+    combination *= Eigen::MatrixXd(ordered.householderQ());
+    for (Eigen::Index k = 0; k < free; ++k) found.push_back({p, combination.col(k)});
   }
   Eigen::MatrixXd modes = Eigen::MatrixXd::Zero(mass.size(), static_cast<Eigen::Index>(found.size()));
   for (Index d = 0; d < mass.size(); ++d) {

@@ -68,6 +68,15 @@ TEST(RigidModes, WallsLeaveWhatTheyDoNotHold) {
   EXPECT_EQ(rigid_count<2>(m), 1);  // along the wall
 }
 
+TEST(RigidModes, OfAFreeBodyStartWithPureTranslations) {
+  const auto body = build_body<3>(box_model({6, 5, 4}, 0.1, 2.0));
+  const auto r = solve_modes(body, lowest(6));
+  const double mass = 6 * 5 * 4 * 0.001;
+  const Eigen::Matrix3d translations = mass * Eigen::Matrix3d::Identity();
+  EXPECT_LE((r.effective_mass.topRows(3) - translations).cwiseAbs().maxCoeff(), 1e-12 * mass);
+  EXPECT_LE(r.effective_mass.bottomRows(3).cwiseAbs().maxCoeff(), 1e-12 * mass);
+}
+
 TEST(RigidModes, EveryPieceMovesByItself) {
   Model m = box_model({12, 9}, 0.1, 3.0);
   add_crack(m, {{0.6, -0.1}, {0.6, 1.0}});
@@ -121,12 +130,14 @@ TEST(Modes, RangeReturnsAllInside) {
   const auto body = build_body<2>(m);
   const auto all = solve_modes(body, lowest(40));
   ModalOptions range;
-  range.range = {0.5 * (all.frequency_hz[5] + all.frequency_hz[6]), 0.5 * (all.frequency_hz[20] + all.frequency_hz[21])};
+  range.range = {0.5 * (all.frequency_hz[5] + all.frequency_hz[6]),
+                 0.5 * (all.frequency_hz[20] + all.frequency_hz[21])};
   for (auto solver : {ModalSolver::lanczos, ModalSolver::dense}) {
     range.solver = solver;
     const auto r = solve_modes(body, range);
     ASSERT_EQ(r.count(), 15);
-    for (int k = 0; k < 15; ++k) EXPECT_NEAR(r.frequency_hz[k], all.frequency_hz[k + 6], 1e-9 * all.frequency_hz[k + 6]);
+    for (int k = 0; k < 15; ++k)
+      EXPECT_NEAR(r.frequency_hz[k], all.frequency_hz[k + 6], 1e-9 * all.frequency_hz[k + 6]);
   }
 }
 
@@ -156,7 +167,8 @@ TEST(Modes, ShiftReturnsTheNearestInHertz) {
 }
 
 TEST(Modes, MechanismsAreCountedApartFromRigidMotions) {
-  const auto body = build_body<2>(box_model({4, 4}, 1.0, 1.0));  // axis bonds only: rows and columns shear freely
+  const auto body =
+      build_body<2>(box_model({4, 4}, 1.0, 1.0));  // axis bonds only: rows and columns shear freely
   const auto r = solve_modes(body, lowest(16));
   EXPECT_EQ(r.rigid_modes, 3);
   // Each of 4 columns slides along y and each of 4 rows along x: 8 zero-energy motions, 3 of them rigid.
