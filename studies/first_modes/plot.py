@@ -32,7 +32,7 @@ def draw_plate(axes, x, u, colour_limit, title):
     width, height = SIZE
     axes.plot([0, width, width, 0, 0], [0, 0, height, height, 0], color="0.75", lw=0.8, zorder=0)
     moved = x + 0.09 * u
-    axes.scatter(*moved.T, c=np.hypot(*u.T), s=1.1, marker="s", lw=0, cmap="viridis", vmin=0,
+    axes.scatter(*moved.T, c=np.hypot(*u.T), s=2.2, marker="s", lw=0, cmap="viridis", vmin=0,
                  vmax=colour_limit, rasterized=True)
     axes.plot([0, 0], [-0.02, height + 0.02], color=INK, lw=4, solid_capstyle="butt")
     axes.set_title(title, fontsize=10.5, color=INK)
@@ -40,14 +40,23 @@ def draw_plate(axes, x, u, colour_limit, title):
     axes.set_axis_off()
 
 
-def draw_crack(axes, x, u):
-    """The two faces of the crack, moved with the particles beside it."""
+def crack_faces(x):
+    """Particles of the columns left and right of the crack, from its mouth to its tip."""
     for side in (-1, 1):
-        near = (np.sign(x[:, 0] - CRACK[0, 0]) == side) & (np.abs(x[:, 0] - CRACK[0, 0]) < 0.004)
-        near &= x[:, 1] < CRACK[1, 1]
-        face = (x + 0.09 * u)[near]
-        face = face[np.argsort(x[near][:, 1])]
-        axes.plot(*face.T, color=CRACKED, lw=1.6)
+        distance = side * (x[:, 0] - CRACK[0, 0])
+        face = np.flatnonzero((distance > 0) & (distance < 0.004) & (x[:, 1] < CRACK[1, 1]))
+        yield face[np.argsort(x[face, 1])]
+
+
+def opening(x, u):
+    """Mean opening of the crack; shapes are drawn with the sign that opens it (the linear body lets faces overlap)."""
+    left, right = crack_faces(x)
+    return np.mean(u[right, 0]) - np.mean(u[left, 0])
+
+
+def draw_crack(axes, x, u):
+    for face in crack_faces(x):
+        axes.plot(*(x + 0.09 * u)[face].T, color=CRACKED, lw=1.6)
 
 
 def main(out):
@@ -64,13 +73,14 @@ def main(out):
     for column, row in enumerate(sorted(cracked_rows, key=lambda r: int(r["paired_mode"]))[:SHOWN]):
         i, j = int(row["paired_mode"]) - 1, int(row["mode"]) - 1
         a, b = whole[i], cracked[j]
-        b = b * np.sign(np.sum(a * b))
+        b = b * np.sign(opening(x, b))
+        a = a * np.sign(np.sum(a * b))
         a, b = a / np.hypot(*a.T).max(), b / np.hypot(*b.T).max()
         draw_plate(grid[0, column], x, a, 1.0, f"mode {i + 1}:  {whole_hz[i]:.1f} Hz")
         drop = 100 * float(row["frequency_drop"])
         draw_plate(grid[1, column], x, b, 1.0, f"{cracked_hz[j]:.1f} Hz   ({-drop:+.1f} %)")
         draw_crack(grid[1, column], x, b)
-    upper.suptitle("Steel plate 1 m x 0.5 m clamped at its left edge, without and with an edge crack of 0.2 m",
+    upper.suptitle("Steel plate 1 m x 0.5 m, clamped at its left edge: modes without and with an edge crack of 0.2 m",
                    fontsize=13, color=INK)
     colours = upper.colorbar(grid[0, 0].collections[0], ax=grid, shrink=0.75, pad=0.01, ticks=[0, 1])
     colours.set_label("displacement / largest", color=INK)
@@ -94,7 +104,7 @@ def main(out):
         shapes.plot(bar_x[:, 0], u, color=plt.cm.viridis(0.1 + 0.35 * n), lw=2,
                     label=f"{float(row['frequency_hz']):.1f} Hz (classical {float(row['classical_hz']):.1f}, "
                           f"FE {float(row['finite_element_hz']):.1f})")
-    shapes.set(xlabel="x, m", ylabel="displacement / largest", xlim=(0, 1), ylim=(-1.15, 1.75),
+    shapes.set(xlabel="x, m", ylabel="displacement / largest", xlim=(0, 1), ylim=(-1.15, 1.95),
                yticks=[-1, 0, 1], title="Fixed-fixed aluminium bar")
     shapes.legend(loc="upper center", frameon=False, fontsize=9.5)
     for axes in (bars, shapes):
