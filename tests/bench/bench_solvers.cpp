@@ -137,8 +137,10 @@ void solve(benchmark::State& state) {
 void twenty_modes(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
   const Problem& p = problem(n);
-  perimode::CholeskyFactor factor(p.k, p.node_of_dof);
   double begin = cpu_seconds();
+  perimode::CholeskyFactor factor(p.k, p.node_of_dof);
+  const double analysis = cpu_seconds() - begin;
+  begin = cpu_seconds();
   if (factor.factorize(p.k, 0.0, p.mass) != perimode::FactorStatus::done) state.SkipWithError("not definite");
   const double one_factorisation = cpu_seconds() - begin;
   perimode::EigenOptions options;
@@ -154,7 +156,7 @@ void twenty_modes(benchmark::State& state) {
   const double seconds = (cpu_seconds() - begin) / static_cast<double>(state.iterations());
   if (result.status != perimode::EigenStatus::converged) state.SkipWithError(result.message.c_str());
   state.counters["cpu_s"] = seconds;
-  state.counters["factorisations"] = (seconds - result.seconds_analyse) / one_factorisation;
+  state.counters["factorisations"] = (seconds - analysis) / one_factorisation;
   state.counters["solves"] = result.solves;
   state.counters["certificate_s"] = result.certificate.seconds;
   if (n != 200) return;
