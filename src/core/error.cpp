@@ -24,8 +24,7 @@ std::string one_line(const Complaint& c) {
 Error::Error(ErrorKind kind, const Complaint& complaint)
     : std::runtime_error(one_line(complaint)), kind_(kind), where_(complaint.where) {}
 
-Error::Error(ErrorKind kind, const std::string& message)
-    : std::runtime_error(message), kind_(kind) {}
+Error::Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
 
 void invalid_input(const Complaint& complaint) { throw Error(ErrorKind::invalid_input, complaint); }
 
