@@ -29,7 +29,7 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
       basis_(op.size(), most_columns_ + block) {
   Eigen::MatrixXd first(op.size(), block);
   const Eigen::Index given = std::min<Eigen::Index>(start.cols(), block);
-  first.leftCols(given) = start.leftCols(given);
+  if (given > 0) first.leftCols(given) = start.leftCols(given);
   first.rightCols(block - given) = random_columns(op.size(), block - given, random_);
   for (int pass = 0; pass < 2; ++pass) {
     first.colwise().normalize();
