@@ -2,6 +2,14 @@
 #include "studies/common/models.hpp"
 
 namespace perimode::studies {
+namespace {
+
+void add_wall(Model& model, int axis, bool upper, WallType type) {
+  BoundaryCondition& condition = model.boundary.emplace_back();
+  condition.what = Wall{{axis, upper}, type, {}};
+}
+
+}  // namespace
 
 Model separable_bar(double horizon, int ratio, const BarEnds& ends, bool self_cell) {
   Model model;
@@ -18,8 +26,8 @@ Model separable_bar(double horizon, int ratio, const BarEnds& ends, bool self_ce
   model.material.micromodulus.kernel = Kernel::inverse_distance;
   model.volume_correction = VolumeCorrection::linear;
   model.self_cell = self_cell;
-  if (ends.first) model.boundary.push_back({Wall{{0, false}, *ends.first, {}}, {}});
-  if (ends.second) model.boundary.push_back({Wall{{0, true}, *ends.second, {}}, {}});
+  if (ends.first) add_wall(model, 0, false, *ends.first);
+  if (ends.second) add_wall(model, 0, true, *ends.second);
   return model;
 }
 
@@ -37,7 +45,7 @@ Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wal
   model.material.micromodulus = kernel;
   model.volume_correction = VolumeCorrection::linear;
   for (const int axis : {0, 1})
-    for (const bool upper : {false, true}) model.boundary.push_back({Wall{{axis, upper}, wall, {}}, {}});
+    for (const bool upper : {false, true}) add_wall(model, axis, upper, wall);
   return model;
 }
 

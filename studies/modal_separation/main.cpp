@@ -5,6 +5,7 @@
 // disagreement.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -34,6 +35,13 @@ std::vector<std::string> broken_rules(const Results& results) {
   return broken;
 }
 
+double largest_discrete_error(const Results& results) {
+  double largest = 0.0;
+  for (const auto& [key, value] : results)
+    if (key.quantity == "discrete_error") largest = std::max(largest, std::abs(value));
+  return largest;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -50,7 +58,7 @@ int main(int argc, char** argv) {
     const std::vector<int> ratios = coarse ? std::vector{5, 10, 25} : std::vector{5, 10, 25, 50, 100};
     const std::vector<double> horizons =
         coarse ? std::vector{0.2, 0.05} : std::vector{0.2, 0.05, 0.025, 0.0125};
-    const std::vector<int> plate_ratios = coarse ? std::vector{3} : std::vector{3, 6, 9};
+    const std::vector<int> plate_ratios = coarse ? std::vector{3} : std::vector{3, 6, 9, 12};
 
     Results results;
     for (const std::string& name : bar_names()) {
@@ -67,6 +75,10 @@ int main(int argc, char** argv) {
     all_horizons.insert(all_horizons.begin() + 1, horizon);
     for (const std::string& name : bar_names()) print_horizons(name, all_horizons, fixed_ratio, results);
     print_plates(plate_ratios, results, expected);
+
+    fmt::print(
+        "\nlargest relative difference from closed forms of the lattice, all bars and plates: {:.1e}\n",
+        largest_discrete_error(results));
 
     if (words.size() == 2) {
       std::filesystem::create_directories(words[1]);
