@@ -94,12 +94,5 @@ class Memory(ProgramTest):
         self.assertIn("2^31", line)
 
 
-class Goals(ProgramTest):
-    def test_a_result_that_is_not_asked_to_be_certified_is_done(self):
-        self.write("case.yaml", PLATE)
-        run = self.good("modal", "case.yaml", "--set", "analysis.modal.certificate=none")
-        self.assertRegex(run.stdout, "completeness not checked|complete by all modes")
-
-
 if __name__ == "__main__":
     main()

@@ -257,6 +257,41 @@ class Results(ProgramTest):
         self.assertAlmostEqual(float(table[0]["frequency_hz"]) / all_hz[4], 1.0, delta=1e-11)
 
 
+class Goals(ProgramTest):
+    # Where an odd and an even wall meet, eigenvalues of the plate are complex: there are no such modes to give.
+    COMPLEX = PLATE.replace("  - { fix: [x, y], at: { face: x-, layers: 1 } }",
+                            "  - { wall: x-, type: odd }\n  - { wall: y-, type: even }").replace("modes: 6", "modes: 20")
+
+    def test_a_goal_that_is_not_reached_is_exit_code_1_and_the_result_says_so(self):
+        self.write("case.yaml", self.COMPLEX)
+        run = self.perimode("modal", "case.yaml", "--quiet")
+        self.assertEqual(run.returncode, 1)
+        self.assertEqual(len(run.stderr.splitlines()), 1)
+        self.assertTrue(run.stderr.startswith("perimode: error: eigenvalues are not real"), run.stderr)
+        self.assertEqual(sorted(p.name for p in (self.folder / "out/plate").iterdir()), FILES)
+        summary = json.loads((self.folder / "out/plate/summary.json").read_text())
+        self.assertEqual(summary["status"], "not_converged")
+        self.assertIn("not real", summary["message"])
+
+    def test_a_certificate_that_is_not_asked_for_is_not_missed(self):
+        self.write("case.yaml", PLATE)
+        run = self.good("modal", "case.yaml", "--set", "analysis.modal={ modes: 6, certificate: none, solver: lanczos }")
+        self.assertIn("completeness not checked", run.stdout)
+        summary = json.loads((self.folder / "out/plate/summary.json").read_text())
+        self.assertEqual(summary["certificate"]["method"], "none")
+        self.assertIs(summary["certificate"]["complete"], False)
+
+    def test_certificates_by_inertia_and_by_restart(self):
+        self.write("case.yaml", BLOCK)
+        for method in ("inertia", "restart"):
+            self.good("modal", "case.yaml", "--force",
+                      "--set", "analysis.modal={ modes: 20, certificate: %s, solver: lanczos }" % method)
+            certificate = json.loads((self.folder / "out/block/summary.json").read_text())["certificate"]
+            self.assertEqual(certificate["method"], method)
+            self.assertIs(certificate["complete"], True)
+            self.assertGreaterEqual(certificate["count"], 20)
+
+
 class Folders(ProgramTest):
     def test_a_result_is_replaced_only_by_force(self):
         self.write("case.yaml", PLATE)
