@@ -109,5 +109,32 @@ TEST(PlaneWaves, LongWavesAlongAnAxisOfTheNormalisedLattice) {
   }
 }
 
+/// Energy of pure dilation over the continuum's, minus one: what the discrete calibration divides by.
+template <int Dim>
+double energy_error(const std::vector<int>& cells, double ratio) {
+  Model m = box_model(cells, 1.0, ratio);
+  m.periodic = {true, true, true};
+  m.plane = Plane::strain;
+  m.material.micromodulus.kernel = Kernel::inverse_distance;
+  m.calibration = Calibration::discrete;
+  return 1.0 / build_body<Dim>(m).constants.factor[0] - 1.0;
+}
+
+// [ganzenmueller2013], original calibration: (number of neighbours) / (volume of the horizon) - 1. The bodies
+// are thinner than the horizon, so most of the family are images of a few particles.
+TEST(PlaneWaves, DilationEnergyOfTheOriginalCalibration) {
+  const std::pair<double, double> space[] = {
+      {3, .19454594}, {4, -.04507034}, {5, .19576107},   {6, .29949467},   {8, -.02934647},
+      {9, .07871684}, {12, .02225566}, {16, -.04507034}, {25, -.01833231}, {36, .02124422}};
+  for (const auto& [square, error] : space) {
+    EXPECT_NEAR(energy_error<3>({2, 1, 3}, std::sqrt(square)), error, 6e-9) << square;
+  }
+  const std::pair<double, double> strain[] = {
+      {2, -.04507034}, {3, -.00970258}, {4, -.04507034}, {5, .01859164}};
+  for (const auto& [ratio, error] : strain) {
+    EXPECT_NEAR(energy_error<2>({2, 3}, ratio), error, 6e-9) << ratio;
+  }
+}
+
 }  // namespace
 }  // namespace perimode
