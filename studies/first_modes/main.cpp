@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <limits>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,7 +53,7 @@ struct Solved {
 template <int Dim>
 Solved<Dim> solve(const Case& input) {
   Body<Dim> body = build_body<Dim>(input.model);
-  ModalResult modes = solve_modes(body, *input.modal);
+  ModalResult modes = solve_modes(body, input.modal.value_or(ModalOptions{}));
   if (modes.status != EigenStatus::converged)
     throw Error(ErrorKind::solver_failure,
                 {"all modes of " + input.title, modes.message, "see the case file", {}});
@@ -74,14 +74,16 @@ void add_bar(const std::filesystem::path& file, std::vector<Row>& rows) {
   const Case input = read_case(file);
   const ModalResult modes = solve<1>(input).modes;
   std::string why_not;
-  const auto exact = closed_form_modes(input.model, static_cast<int>(modes.count()), why_not);
+  const std::vector<ClosedFormMode> exact =
+      closed_form_modes(input.model, static_cast<int>(modes.count()), why_not)
+          .value_or(std::vector<ClosedFormMode>());
   constexpr double to_hz = 0.5 / std::numbers::pi;
   for (int k = 0; k < modes.count(); ++k) {
     const auto i = static_cast<std::size_t>(k);
     Row r = row("bar", modes, k);
-    r.exact = exact->at(i).discrete * to_hz;
-    r.nonlocal = exact->at(i).nonlocal * to_hz;
-    r.classical = exact->at(i).classical * to_hz;
+    r.exact = exact.at(i).discrete * to_hz;
+    r.nonlocal = exact.at(i).nonlocal * to_hz;
+    r.classical = exact.at(i).classical * to_hz;
     if (i < bar_elements_hz.size()) r.elements = bar_elements_hz[i];
     rows.push_back(r);
   }

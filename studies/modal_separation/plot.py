@@ -31,13 +31,13 @@ def against(results, quantity, body, axis, mode, horizon=HORIZON, ratio=RATIO):
     return np.array(points).T
 
 
-def slope(axes, x, y, order, text, above=True):
-    """A line of the given order through (x[0], y)."""
+def slope(axes, x, y, order, text):
+    """A line of the given order through (x[0], y), its name below it."""
     x = np.array(x)
     axes.plot(x, y * (x / x[0]) ** order, color="0.45", lw=1, ls="--", zorder=0)
     middle = np.sqrt(x[0] * x[1])
-    axes.annotate(text, (middle, y * (middle / x[0]) ** order), xytext=(0, 6 if above else -14),
-                  textcoords="offset points", color="0.35", fontsize=9, ha="left" if above else "right")
+    axes.annotate(text, (middle, y * (middle / x[0]) ** order), xytext=(0, -14),
+                  textcoords="offset points", color="0.35", fontsize=9, ha="right")
 
 
 def convergence(axes, results, suffix, mode, title):
@@ -55,8 +55,8 @@ def main(out):
     convergence(grid[0, 0], results, "", 1, "mode 1")
     convergence(grid[0, 1], results, "", 10, "mode 10")
     convergence(grid[0, 2], results, " self_cell", 1, "mode 1, with the self-cell term")
-    slope(grid[0, 0], [25, 100], 7.0e-3, -1, "order 1", above=False)
-    slope(grid[0, 2], [25, 100], 6.0e-7, -2, "order 2")
+    slope(grid[0, 0], [25, 100], 7.0e-3, -1, "order 1")
+    slope(grid[0, 2], [10, 50], 7.0e-7, -2, "order 2")
     grid[0, 0].legend(loc="lower left", frameon=False, fontsize=9)
 
     modes = np.arange(1, 21)
@@ -71,11 +71,12 @@ def main(out):
         x, error = against(results, "error", body + " self_cell", 2, 1)
         grid[1, 1].loglog(x, error, color=COLOURS[body], marker=MARKERS[body], ms=5, lw=1.6)
     x, classical = against(results, "classical_error", "odd self_cell", 2, 1)
-    grid[1, 1].loglog(x, classical, color=INK, lw=1.6, ls=":", label="odd walls, against classical")
+    grid[1, 1].loglog(x, classical, color=INK, lw=1.6, ls=":")
+    grid[1, 1].annotate("odd walls against classical", (x[0], classical[0]), xytext=(4, 14), textcoords="offset points",
+                        fontsize=9, color=INK, rotation=15)
     grid[1, 1].set(xlabel="horizon, m", ylabel="|frequency / exact - 1|", title=f"mode 1 at fixed m = {RATIO}, with the self-cell term")
     grid[1, 1].set_xticks(x, [f"{v:g}" for v in x])
     grid[1, 1].minorticks_off()
-    grid[1, 1].legend(loc="lower right", frameon=False, fontsize=9)
 
     for kernel, colour in (("constant", "#3d6f8e"), ("gaussian", "#c8553d")):
         for branch, line in (("S", "-"), ("P", "--")):
