@@ -51,6 +51,22 @@ class Interruption(ProgramTest):
                     self.assertEqual(output, "")
                     self.assertEqual(self.files(), ["case.yaml"])
 
+    def test_termination_works_at_any_moment(self):
+        # Among others while METIS orders the matrix: it sets its own handler of SIGTERM meanwhile.
+        for tenths in (5, 10, 15, 20, 25):
+            for times in (1, 2):
+                with self.subTest(tenths=tenths, times=times):
+                    run = self.start("--quiet")
+                    self.wait_for(self.unfinished, "a temporary folder")
+                    time.sleep(0.1 * tenths)
+                    for _ in range(times):
+                        run.send_signal(signal.SIGTERM)
+                    errors = run.communicate(timeout=60)[1]
+                    self.assertEqual(run.returncode, 130, errors)
+                    self.assertIn("interrupted", errors)
+                    self.assertEqual(self.unfinished(), [])
+                    self.assertFalse((self.folder / "out/block").exists())
+
     def test_an_interrupted_run_leaves_the_earlier_result(self):
         self.write("small.yaml", PLATE)
         self.good("modal", "small.yaml", "--output", "out/block")
