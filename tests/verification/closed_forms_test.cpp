@@ -130,7 +130,7 @@ std::vector<MediumCase> media() {
 }
 
 INSTANTIATE_TEST_SUITE_P(ClosedForms, EveryMedium, ::testing::ValuesIn(media()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(ClosedForms, LargerPlatesByBlockLanczosAndArpack) {
   for (auto type : {WallType::mirror, WallType::antimirror}) {
@@ -212,10 +212,10 @@ TEST_P(PeriodicCube, MayBeCutInTheMiddleOfALevel) {
 
 INSTANTIATE_TEST_SUITE_P(ClosedForms, PeriodicCube,
                          ::testing::Values(ModalSolver::lanczos, ModalSolver::arpack, ModalSolver::dense),
-                         [](const auto& info) {
-                           return info.param == ModalSolver::lanczos  ? "lanczos"
-                                  : info.param == ModalSolver::arpack ? "arpack"
-                                                                      : "dense";
+                         [](const auto& instance) {
+                           return instance.param == ModalSolver::lanczos  ? "lanczos"
+                                  : instance.param == ModalSolver::arpack ? "arpack"
+                                                                          : "dense";
                          });
 
 }  // namespace
