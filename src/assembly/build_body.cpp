@@ -144,8 +144,7 @@ Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
       horizon = cloud_horizons(particles, static_cast<int>(h.value));
     return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model));
   } catch (const Error& error) {
-    if (error.where().line > 0 || h.where.line == 0) throw;
-    throw Error(error.kind(), h.where.text() + ": " + error.what());
+    throw at(error, h.where);
   }
 }
 

@@ -10,6 +10,13 @@
 
 namespace perimode::cli {
 
+namespace {
+
+/// A piped run that ends sooner says nothing on its way.
+constexpr double quick_seconds = 1.0;
+
+}  // namespace
+
 Console::Console(bool quiet)
     : quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
@@ -52,7 +59,7 @@ void Console::stage(const std::string& name, double fraction) {
     std::fputs(fmt::format("\r\033[K{:6.1f} s  {}{}", seconds, name, share).c_str(), stderr);
     std::fflush(stderr);
     line_shown_ = true;
-  } else if (name != last_stage_) {
+  } else if (name != last_stage_ && seconds >= quick_seconds) {
     log_->info("{:6.1f} s  {}", seconds, name);
   }
   last_stage_ = name;

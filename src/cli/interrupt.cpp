@@ -3,57 +3,46 @@
 
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <mutex>
+#include <string_view>
 #include <thread>
 
 namespace perimode::cli {
 
 namespace {
 
-// A handler may only write to a pipe; a thread that waits at its other end does the rest. A pipe rather than
-// sigwait, because threads of the BLAS library run before main and would not have the signals blocked.
-std::array<int, 2> wake = {-1, -1};
 std::mutex guard;
-std::filesystem::path unfinished;  // NOLINT(cert-err58-cpp): an empty path does not throw
-
-extern "C" void on_signal(int) {
-  const char byte = 1;
-  [[maybe_unused]] const auto written = write(wake[1], &byte, 1);
-}
+UnfinishedResult unfinished_result;
 
 void wait_for_signal() {
-  char byte = 0;
-  while (read(wake[0], &byte, 1) != 1) {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  int number = 0;
+  while (sigwait(&signals, &number) != 0) {
   }
-  const char* line = "\nperimode: interrupted; nothing was written\n";
-  for (const char* c = line; *c != '\0'; ++c) [[maybe_unused]]
-    const auto written = write(STDERR_FILENO, c, 1);
   {
     const std::scoped_lock lock(guard);
-    std::error_code ignored;
-    if (!unfinished.empty()) std::filesystem::remove_all(unfinished, ignored);
+    remove_unfinished(unfinished_result);
   }
+  const bool terminal = isatty(STDERR_FILENO) == 1;
+  const std::string_view line = "perimode: interrupted; nothing was written\n";
+  if (terminal) [[maybe_unused]]
+    const auto cleared = write(STDERR_FILENO, "\r\033[K", 4);
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
   std::_Exit(130);
 }
 
 }  // namespace
 
-void watch_for_interrupts() {
-  if (pipe(wake.data()) != 0) return;  // without a pipe the default action ends the program
-  std::thread(wait_for_signal).detach();
-  struct sigaction action = {};
-  action.sa_handler = on_signal;
-  action.sa_flags = SA_RESTART;
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
-}
+void watch_for_interrupts() { std::thread(wait_for_signal).detach(); }
 
-void set_unfinished_result(const std::filesystem::path& folder) {
+void set_unfinished_result(const UnfinishedResult& unfinished) {
   const std::scoped_lock lock(guard);
-  unfinished = folder;
+  unfinished_result = unfinished;
 }
 
 }  // namespace perimode::cli

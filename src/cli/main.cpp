@@ -3,18 +3,22 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <functional>
 #include <limits>
 #include <new>
 #include <string>
+#include <thread>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/core/version.hpp"
 #include "perimode/linalg/threads.hpp"
+#include "process.hpp"
 
 namespace {
 
@@ -42,6 +46,34 @@ std::string version_text() {
   for (const auto& c : perimode::components()) text += fmt::format("  {:14} {}\n", c.name, c.version);
   text.pop_back();
   return text;
+}
+
+/// A count of threads this machine can make sense of, as a CLI11 check: the complaint, or nothing.
+std::string number_of_threads(const std::string& text) {
+  const int most = 4 * static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  int count = 0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (status == std::errc() && end == text.data() + text.size() && count >= 1 && count <= most) return {};
+  return fmt::format("expected 1 to {} threads, got {}", most, text);
+}
+
+/// One line about a command line that could not be read, what came and where help is.
+std::string usage_error(const CLI::App& app, int argc, char** argv, std::string what) {
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  const auto subcommands = app.get_subcommands([](const CLI::App*) { return true; });
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    if (word.starts_with("-")) {
+      const bool known = app.get_option_no_throw(word.substr(0, word.find('='))) != nullptr;
+      if (!known) what = fmt::format("expected an option of perimode, got '{}'", word);
+      continue;
+    }
+    const bool known = std::any_of(subcommands.begin(), subcommands.end(),
+                                   [&](const auto* s) { return s->get_name() == word; });
+    if (!known) what = fmt::format("expected the command modal, check or new, got '{}'", word);
+    break;
+  }
+  return what + "; see perimode --help";
 }
 
 int exit_code(perimode::ErrorKind kind) {
@@ -77,6 +109,7 @@ int guarded(const std::function<int(Console&)>& command, bool quiet) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  perimode::cli::prepare_process(argv);
   keep_freed_memory();
   perimode::cli::watch_for_interrupts();
   CLI::App app{"Perimode: vibration modes of bond-based peridynamic bodies", "perimode"};
@@ -89,7 +122,7 @@ int main(int argc, char** argv) {
   int threads = 0;
   bool quiet = false;
   std::function<int(Console&)> command;
-  app.add_option("--threads", threads, "threads to use (default: all cores)")->check(CLI::PositiveNumber);
+  app.add_option("--threads", threads, "threads to use (default: all cores)")->check(number_of_threads);
   app.add_flag("--quiet", quiet, "print results and errors only");
 
   const auto common = [&](CLI::App* sub) {
@@ -125,7 +158,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    fmt::print(stderr, "perimode: error: {}\nTry perimode --help.\n", e.what());
+    fmt::print(stderr, "perimode: error: {}\n", usage_error(app, argc, argv, e.what()));
     return 2;
   }
   return guarded(

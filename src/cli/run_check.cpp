@@ -15,9 +15,15 @@ int check(const Case& input, Console& console) {
   refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
-  const ModalPlan plan = plan_modes(body, input.modal.value_or(ModalOptions{}));
+  const ModalPlan plan = [&] {
+    try {
+      return plan_modes(body, input.modal.value_or(ModalOptions{}));
+    } catch (const Error& error) {
+      throw at(error, input.modal_where);
+    }
+  }();
   console.clear_progress();
-  fmt::print("{}{}reads well\n", input.title, input.title.empty() ? "" : ": ");
+  fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
   fmt::print("particles        {}", plan.particles);
   if (plan.ghosts > 0) fmt::print("  (+ {} fictitious)", plan.ghosts);
   fmt::print("\nbonds            {}", plan.bonds);

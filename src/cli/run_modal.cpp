@@ -76,23 +76,34 @@ void write_matrices(const std::filesystem::path& folder, const Body<Dim>& body, 
   write_matrix_market(folder / "M.mtx", {m.data(), static_cast<std::size_t>(m.size())});
 }
 
+/// The modes, unless they would not fit in memory; errors point at the section that asks for them.
+template <int Dim>
+ModalResult solve_checked(const Body<Dim>& body, const Case& input, const Sink& sink) {
+  try {
+    check_request(body.boundary.free, *input.modal);
+    // The exact prediction costs an ordering; it is made where a factor could come near the memory there is.
+    if (25.0 * least_memory(input.model) > available_memory()) {
+      sink.report("predicting memory");
+      refuse_if_too_large(plan_modes(body, *input.modal).memory_bytes, "these modes");
+    }
+    return solve_modes(body, *input.modal, sink);
+  } catch (const Error& error) {
+    throw error.kind() == ErrorKind::invalid_input ? at(error, input.modal_where) : error;
+  }
+}
+
 template <int Dim>
 int run(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const ModalOptions options = *input.modal;
   refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
   ResultDirectory folder(arguments.output.value_or(input.output.directory), arguments.force);
-  set_unfinished_result(folder.temporary());
+  set_unfinished_result(folder.unfinished());
 
   const Sink sink = console.sink();
   const Body<Dim> body = build_body<Dim>(input.model, sink);
   const double seconds_body = seconds_since(start);
-  // The exact prediction costs an ordering; it is made where a factor could come near the memory there is.
-  if (40.0 * least_memory(input.model) > available_memory()) {
-    console.stage("predicting memory", -1.0);
-    refuse_if_too_large(plan_modes(body, options).memory_bytes, "these modes");
-  }
-  const ModalResult result = solve_modes(body, options, sink);
+  const ModalResult result = solve_checked(body, input, sink);
   const References references = references_of(input, options, result, console);
 
   console.stage("writing", -1.0);

@@ -38,30 +38,44 @@ void require_replaceable(const fs::path& target, bool force) {
   }
 }
 
+std::vector<fs::path> missing_parents(const fs::path& target) {
+  std::vector<fs::path> missing;
+  for (fs::path p = target.parent_path(); !p.empty() && !fs::exists(p); p = p.parent_path())
+    missing.insert(missing.begin(), p);
+  return missing;
+}
+
 }  // namespace
+
+void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
+  if (unfinished.temporary.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(unfinished.temporary, ignored);
+  for (auto p = unfinished.parents.rbegin(); p != unfinished.parents.rend(); ++p) {
+    if (fs::is_empty(*p, ignored)) fs::remove(*p, ignored);
+  }
+}
 
 ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
   try {
     target_ = fs::weakly_canonical(fs::absolute(target));
     if (!target_.has_filename()) target_ = target_.parent_path();
     require_replaceable(target_, force);
+    unfinished_.parents = missing_parents(target_);
     fs::create_directories(target_.parent_path());
     const fs::path temporary = fmt::format("{}.part-{}", target_.string(), ::getpid());
     fs::remove_all(temporary);  // left by a killed run that had this process id
     fs::create_directory(temporary);
-    temporary_ = temporary;
+    unfinished_.temporary = temporary;
   } catch (const fs::filesystem_error& error) {
     fail("to create the folder of the result", error);
   }
 }
 
-ResultDirectory::~ResultDirectory() {
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-}
+ResultDirectory::~ResultDirectory() { remove_unfinished(unfinished_); }
 
 ResultDirectory::ResultDirectory(ResultDirectory&& other) noexcept
-    : target_(std::move(other.target_)), temporary_(std::exchange(other.temporary_, {})) {}
+    : target_(std::move(other.target_)), unfinished_(std::exchange(other.unfinished_, {})) {}
 
 void ResultDirectory::commit() {
   const fs::path old = fmt::format("{}.old-{}", target_.string(), ::getpid());
@@ -72,12 +86,12 @@ void ResultDirectory::commit() {
       fs::rename(target_, old);
       moved_aside = true;
     }
-    fs::rename(temporary_, target_);
-    temporary_.clear();
+    fs::rename(unfinished_.temporary, target_);
+    unfinished_ = {};
     fs::remove_all(old);
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
-    if (moved_aside && !temporary_.empty()) fs::rename(old, target_, ignored);
+    if (moved_aside && !unfinished_.temporary.empty()) fs::rename(old, target_, ignored);
     fail("to put the result in its place", error);
   }
 }

@@ -56,14 +56,18 @@ struct Pairs {
   std::vector<ModeKind> kind;
 };
 
-/// Elastic pairs besides `rigid` deflated motions.
+/// Elastic pairs besides `rigid` deflated motions; `largest` bounds the spectrum.
 EigenResult solve_symmetric(const EigenProblem& problem, EigenOptions wanted, const ModalOptions& options,
-                            Eigen::Index rigid, const Sink& sink) {
+                            Eigen::Index rigid, double largest, const Sink& sink) {
   const Eigen::Index elastic = problem.mass->size() - rigid;
   if (!options.shift) return solve_eigen(problem, wanted, sink);
   // The nearest in Hz lie within the eigenvalues nearest to the shift up to the distance that set covers
   // upward.
   const double f0 = *options.shift;
+  if (wanted.shift >= largest) {  // beyond the spectrum the order by eigenvalue is that by frequency
+    wanted.shift = largest;
+    return solve_eigen(problem, wanted, sink);
+  }
   for (Eigen::Index count = wanted.count;; count *= 2) {
     wanted.count = static_cast<int>(std::min(count, elastic));
     EigenResult r = solve_eigen(problem, wanted, sink);
@@ -236,7 +240,7 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
     result.solver = "rigid motions";
     result.certificate = {true, true, "all rigid motions", static_cast<Offset>(rigid.cols()), 0.0, 0.0, 0};
   } else {
-    EigenResult r = solve_symmetric(eigen, wanted, options, rigid.cols(), sink);
+    EigenResult r = solve_symmetric(eigen, wanted, options, rigid.cols(), result.largest, sink);
     result.status = r.status;
     result.message = r.message;
     result.solver = r.engine;
@@ -315,18 +319,22 @@ void solve_unsymmetric_body(ModalResult& result, const Body<Dim>& body, const Pr
 
 }  // namespace
 
-template <int Dim>
-ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, const Sink& sink) {
-  const Index dofs = body.boundary.free;
+void check_request(Index dofs, const ModalOptions& options) {
   if (dofs == 0) {
     invalid_input({"at least one free degree of freedom", "none", "fix fewer particles or components", {}});
   }
   if (options.modes && (*options.modes < 1 || *options.modes > dofs)) {
-    invalid_input({fmt::format("analysis.modal.modes between 1 and the body's {} degrees of freedom", dofs),
+    invalid_input({fmt::format("modes between 1 and the body's {} degrees of freedom", dofs),
                    fmt::format("{}", *options.modes),
                    "ask for fewer modes",
                    {}});
   }
+}
+
+template <int Dim>
+ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, const Sink& sink) {
+  const Index dofs = body.boundary.free;
+  check_request(dofs, options);
   ModalOptions wanted = options;
   if (!wanted.modes && !wanted.range) wanted.modes = std::min<Index>(20, dofs);
 
@@ -340,6 +348,12 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   result.nonzeros = problem.stiffness.nonzeros();
   result.asymmetry = asymmetry(problem.stiffness);
   result.largest = norm_inf(problem.stiffness) / problem.mass.minCoeff();
+  if (!std::isfinite(result.largest)) {
+    invalid_input({"stiffnesses and masses within the range of floating-point numbers",
+                   fmt::format("a largest eigenvalue of {}", result.largest),
+                   "check the material and the units",
+                   {}});
+  }
   result.seconds_assemble = seconds_since(start);
   const double scale = eigenvalue_scale(body, result.largest);
 

@@ -8,6 +8,7 @@
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/bonds/connectivity.hpp"
 #include "perimode/linalg/eigen.hpp"
+#include "perimode/modal/modes.hpp"
 #include "perimode/modal/rigid.hpp"
 
 namespace perimode {
@@ -63,9 +64,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   plan.pieces = pieces.count;
   plan.isolated = pieces.isolated;
   warn_of_mechanisms(body, plan);
-  if (plan.dofs == 0) {
-    invalid_input({"at least one free degree of freedom", "none", "fix fewer particles or components", {}});
-  }
+  check_request(plan.dofs, options);
 
   BlockCsr blocks = assemble_stiffness(body);
   const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);

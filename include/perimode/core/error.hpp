@@ -41,9 +41,14 @@ class Error : public std::runtime_error {
   [[nodiscard]] const Where& where() const noexcept { return where_; }
 
  private:
+  friend Error at(const Error& error, const Where& where);
+
   ErrorKind kind_;
   Where where_;
 };
+
+/// The same error with a place, if it has none yet: for callers that know where the input came from.
+[[nodiscard]] Error at(const Error& error, const Where& where);
 
 /// Throws Error(invalid_input).
 [[noreturn]] void invalid_input(const Complaint& complaint);

@@ -2,8 +2,17 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 namespace perimode {
+
+/// What a run that did not end has made: a temporary folder and parents that were not there before.
+struct UnfinishedResult {
+  std::filesystem::path temporary;             ///< empty: nothing to remove
+  std::vector<std::filesystem::path> parents;  ///< created for it, outermost first
+};
+/// Removes the folder, then those parents that are empty. Throws nothing.
+void remove_unfinished(const UnfinishedResult& unfinished) noexcept;
 
 /// A result folder that appears whole or not at all. Files are written into a temporary sibling
 /// folder "<target>.part-<process id>"; commit() renames it to the target. Without a commit the
@@ -21,7 +30,8 @@ class ResultDirectory {
   ResultDirectory& operator=(const ResultDirectory&) = delete;
 
   /// Where to write until commit(); what an interrupted program has to remove.
-  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  [[nodiscard]] const std::filesystem::path& temporary() const { return unfinished_.temporary; }
+  [[nodiscard]] const UnfinishedResult& unfinished() const { return unfinished_; }
   [[nodiscard]] const std::filesystem::path& target() const { return target_; }
 
   /// Puts the result in its place. An earlier result is moved aside first and removed last, and
@@ -29,7 +39,8 @@ class ResultDirectory {
   void commit();
 
  private:
-  std::filesystem::path target_, temporary_;  ///< temporary_ is empty when there is nothing to remove
+  std::filesystem::path target_;
+  UnfinishedResult unfinished_;
 };
 
 }  // namespace perimode

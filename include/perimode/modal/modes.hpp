@@ -47,10 +47,13 @@ struct ModalResult {
   [[nodiscard]] Eigen::Index count() const { return eigenvalue.size(); }
 };
 
+/// Throws invalid_input when a body of so many free dofs has nothing to solve or fewer modes than asked for.
+void check_request(Index dofs, const ModalOptions& options);
+
 /// Modes of K x = omega^2 M x over the free dofs of a body. Rigid modes are found first and deflated;
 /// eigenvalues of symmetric bodies are Rayleigh quotients summed bond by bond. Unsymmetric problems (surface
 /// nodes, odd and even walls in 2D and 3D) are found out and solved as such.
-/// Throws invalid_input when there is nothing to solve or more modes are asked for than the body has.
+/// Throws invalid_input as check_request, and when K or M overflow.
 template <int Dim>
 [[nodiscard]] ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options,
                                       const Sink& sink = {});
