@@ -21,6 +21,7 @@ constexpr std::size_t longest_name = 255;
 /// The library takes names as char**, which it does not change.
 std::vector<char*> pointers(std::vector<std::string>& names) {
   std::vector<char*> result;
+  result.reserve(names.size());
   for (std::string& name : names) result.push_back(name.data());
   return result;
 }
@@ -38,6 +39,7 @@ struct SphereBlock {
 
 std::vector<SphereBlock> sphere_blocks(const ExodusMesh& mesh) {
   std::vector<SphereBlock> blocks;
+  blocks.reserve(mesh.block_names.size());
   for (const std::string& name : mesh.block_names) blocks.push_back({name.empty() ? "body" : name, {}});
   for (std::size_t i = 0; i < mesh.block.size(); ++i)
     blocks[mesh.block[i]].nodes.push_back(static_cast<int>(i) + 1);
