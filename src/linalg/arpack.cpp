@@ -63,7 +63,7 @@ EigenPairs largest_pairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, int c
   EigenPairs out;
   const Eigen::MatrixXd vector = largest_vectors(op, deflated, count, settings);
   out.vector = Eigen::MatrixXd(op.size(), 0);
-  out.neighbourhood = out.vector;
+  out.rest.vector = out.rest.newest = out.vector;
   if (vector.cols() == 0) return out;
   // One more inverse iteration for all vectors at once, then the pairs of their span.
   Eigen::MatrixXd image = op.apply(vector);
@@ -89,7 +89,11 @@ EigenPairs largest_pairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, int c
   out.theta = sorted.head(end);
   out.vector = (image * sorted.cwiseInverse().asDiagonal()).leftCols(end);
   out.next = end < count ? std::abs(sorted[end]) + residual[end] : std::abs(sorted[end - 1]);
-  out.neighbourhood = ritz.rightCols(count - end);
+  // Converged as far as round-off goes, so coupled to nothing.
+  out.rest = {.vector = ritz.rightCols(count - end),
+              .theta = sorted.tail(count - end),
+              .newest = Eigen::MatrixXd(op.size(), 0),
+              .tail = Eigen::MatrixXd(0, count - end)};
   return out;
 }
 

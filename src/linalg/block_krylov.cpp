@@ -38,6 +38,29 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
   (void)take_in(std::move(first), 0, 1.0);
 }
 
+BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held,
+                         int extra, int more_columns, std::uint64_t seed)
+    : op_(op),
+      deflated_(deflated),
+      block_(static_cast<int>(held.newest.cols()) + extra),
+      most_columns_(static_cast<int>(held.theta.size()) + std::max(more_columns, 4 * block_)),
+      random_(seed),
+      basis_(op.size(), most_columns_ + block_),
+      h_(held.theta.asDiagonal()),
+      known_(held.theta.size()) {
+  if (known_ > 0) basis_.leftCols(known_) = held.vector;
+  Eigen::MatrixXd first(op.size(), block_);
+  if (held.newest.cols() > 0) first.leftCols(held.newest.cols()) = held.newest;
+  first.rightCols(extra) = random_columns(op.size(), extra, random_);
+  for (int pass = 0; pass < 2; ++pass) {
+    first.colwise().normalize();
+    project_out(first, known_);
+  }
+  const Eigen::MatrixXd factor = take_in(std::move(first), known_, 1.0);
+  tail_ = Eigen::MatrixXd::Zero(next_, known_);
+  if (held.tail.size() > 0) tail_ = product(factor.leftCols(held.newest.cols()), held.tail);
+}
+
 void BlockKrylov::project_out(Eigen::Ref<Eigen::MatrixXd> fresh, Eigen::Index used) const {
   add_product(-1.0, deflated_, transposed_product(deflated_, fresh), fresh);
   add_product(-1.0, basis_.leftCols(used), transposed_product(basis_.leftCols(used), fresh), fresh);
@@ -120,6 +143,20 @@ BlockKrylov::Ritz BlockKrylov::ritz() const {
   out.residual = Eigen::VectorXd::Zero(value.size());
   if (next_ > 0) out.residual = product(tail_, out.coefficient).colwise().norm();
   return out;
+}
+
+double BlockKrylov::radius_beyond(Eigen::Index first) const {
+  const Eigen::Index count = known_ - first;
+  if (count == 0) return 0.0;
+  Eigen::MatrixXd part = h_.bottomRightCorner(count, count);
+  return symmetric_eigen(part).cwiseAbs().maxCoeff();
+}
+
+Neighbourhood BlockKrylov::neighbourhood(const Ritz& ritz, Eigen::Index first, Eigen::Index count) const {
+  return {.vector = vectors(ritz, first, count),
+          .theta = ritz.theta.segment(first, count),
+          .newest = newest(),
+          .tail = product(tail_, ritz.coefficient.middleCols(first, count))};
 }
 
 Eigen::MatrixXd BlockKrylov::vectors(const Ritz& ritz, Eigen::Index first, Eigen::Index count) const {

@@ -9,6 +9,16 @@
 
 namespace perimode {
 
+/// Ritz vectors of Op outside a deflated space and what they are coupled to outside themselves:
+/// Op vector = vector diag(theta) + newest tail. All columns are orthonormal and orthogonal to what is
+/// deflated.
+struct Neighbourhood {
+  Eigen::MatrixXd vector;
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd newest;  ///< no columns: an invariant space
+  Eigen::MatrixXd tail;    ///< newest.cols() x vector.cols()
+};
+
 /// Orthonormal columns built block by block with Op V = V H + F E^T, everything orthogonalised
 /// twice against everything and against the columns of `deflated` (orthonormal, never returned).
 /// H is kept in full: with complete orthogonalisation a thick restart and random columns put in
@@ -18,6 +28,10 @@ class BlockKrylov {
   /// `start` (n x s, any columns, may be empty) is filled up with random columns to `block`.
   BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start, int block,
               int most_columns, std::uint64_t seed);
+
+  /// Goes on from `held` with `extra` random columns beside its newest block.
+  BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held, int extra,
+              int more_columns, std::uint64_t seed);
 
   /// Applies Op to the newest block and takes in what is new. False when the space is used up:
   /// then H is the whole of Op outside `deflated`.
@@ -30,6 +44,8 @@ class BlockKrylov {
     Eigen::VectorXd residual;     ///< |Op y - theta y|
   };
   [[nodiscard]] Ritz ritz() const;
+  /// Largest |Ritz value| of the space without its first `first` basis columns.
+  [[nodiscard]] double radius_beyond(Eigen::Index first) const;
 
   /// Columns of the basis with H known (the newest block is not yet among them).
   [[nodiscard]] Eigen::Index columns() const { return known_; }
@@ -42,6 +58,8 @@ class BlockKrylov {
   [[nodiscard]] Eigen::MatrixXd purified(const Ritz& ritz, Eigen::Index count) const;
   /// Ritz vectors [first, first + count) as they stand.
   [[nodiscard]] Eigen::MatrixXd vectors(const Ritz& ritz, Eigen::Index first, Eigen::Index count) const;
+  /// Ritz vectors [first, first + count) with their coupling.
+  [[nodiscard]] Neighbourhood neighbourhood(const Ritz& ritz, Eigen::Index first, Eigen::Index count) const;
   /// The block that Op has not been applied to.
   [[nodiscard]] Eigen::MatrixXd newest() const { return basis_.middleCols(known_, next_); }
 

@@ -74,7 +74,7 @@ EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
   EigenPairs out;
   if (room <= 0) {
     out.converged = true;
-    out.vector = out.neighbourhood = Eigen::MatrixXd(op.size(), 0);
+    out.vector = out.rest.vector = out.rest.newest = Eigen::MatrixXd(op.size(), 0);
     return out;
   }
   const int block = static_cast<int>(std::min<Eigen::Index>(settings.block, room));
@@ -90,7 +90,7 @@ EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
       out.theta = ritz.theta.head(count);
       out.vector = space.purified(ritz, count);
       out.next = verdict.next;
-      out.neighbourhood = beside(space.vectors(ritz, count, ritz.theta.size() - count), space.newest());
+      out.rest = space.neighbourhood(ritz, count, ritz.theta.size() - count);
       return out;
     }
     if (space.full()) {

@@ -13,6 +13,17 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// Does a probe find nothing? It may need more than one attempt to decide.
+bool clean(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
+           std::uint64_t seed) {
+  constexpr int most_attempts = 10;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    const Probe seen = probe(op, deflated, held, cut, block, seed + attempt);
+    if (seen.clean || seen.found.cols() > 0) return seen.clean;
+  }
+  return false;
+}
+
 }  // namespace
 
 Offset count_below(const EigenProblem& problem, double sigma, std::span<const Index> order) {
@@ -28,13 +39,13 @@ Certificate certify_by_inertia(const EigenProblem& problem, double at, Offset ex
   return out;
 }
 
-Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut, int block,
-                               int rounds, std::uint64_t seed) {
+Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood held,
+                               double cut, int block, int rounds, std::uint64_t seed) {
   const auto begin = std::chrono::steady_clock::now();
   const int solves = op.solves;
   Certificate out{.complete = true, .method = "restart", .at = op.eigenvalue(cut)};
   for (int round = 0; round < rounds && out.complete; ++round)
-    out.complete = probe(op, deflated, cut, std::max(block, 4), seed + round).clean;
+    out.complete = clean(op, deflated, held, cut, block, seed + 131 * round);
   out.solves = op.solves - solves;
   out.seconds = seconds_since(begin);
   return out;

@@ -15,10 +15,11 @@ namespace perimode {
 [[nodiscard]] Certificate certify_by_inertia(const EigenProblem& problem, double at, Offset expected,
                                              std::span<const Index> order);
 
-/// Complete iff random blocks deflated against known and found vectors (and whatever else the
-/// iteration still holds) meet nothing at or above `cut` = 1 / (lambda - sigma): `rounds` seeds.
-[[nodiscard]] Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut,
-                                             int block, int rounds, std::uint64_t seed);
+/// Complete iff random blocks deflated against known and found vectors, aware of whatever else the
+/// iteration still holds, meet nothing at or above `cut` = 1 / (lambda - sigma): `rounds` seeds.
+[[nodiscard]] Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+                                             Neighbourhood held, double cut, int block, int rounds,
+                                             std::uint64_t seed);
 
 /// Is an indefinite factorisation no dearer than half of the solves of a restart certificate?
 [[nodiscard]] bool inertia_is_cheap(Index rows, Offset factor_nonzeros, double factor_flops);

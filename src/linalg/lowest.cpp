@@ -60,8 +60,8 @@ Certificate certify(const EigenProblem& problem, const EigenOptions& options, co
     if (inertia) {
       out = certify_by_inertia(problem, at, total, factor.order());
     } else {
-      const Eigen::MatrixXd deflated = beside(beside(known, found.pairs.vector), found.pairs.neighbourhood);
-      out = certify_by_restart(op, deflated, found.cut, settings.block, 1, settings.seed);
+      out = certify_by_restart(op, beside(known, found.pairs.vector), found.pairs.rest, found.cut,
+                               settings.block, 1, settings.seed);
       out.count = total;
     }
     if (out.complete || attempt == most_searches) return out;

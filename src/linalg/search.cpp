@@ -7,13 +7,65 @@
 #include <utility>
 #include <vector>
 
-#include "block_krylov.hpp"
-
 namespace perimode {
 namespace {
 
 /// T_degree(x) for x >= 1.
 double chebyshev(int degree, double x) { return std::cosh(degree * std::acosh(std::max(x, 1.0))); }
+
+constexpr int least_width = 4;  ///< columns of a random block at least
+constexpr int most_steps = 40;
+
+/// Would a random block have shown an eigenvalue >= cut in a space of polynomials of this degree?
+bool must_have_shown(const ShiftInvert& op, int degree, double rho, double cut) {
+  constexpr double shy = 0.03;
+  const double x = op.positive ? 2.0 * cut / rho - 1.0 : cut / rho;
+  const double growth = chebyshev(degree, x);
+  return rho < cut && growth * growth >= static_cast<double>(op.size()) / (shy * shy) * rho / (cut - rho);
+}
+
+/// The bound on |B| below which nothing at or above the cut is left, see Probe; <= 0: there is none.
+double cut_beside(const Neighbourhood& held, double cut) {
+  if (held.theta.size() == 0) return cut;
+  const Eigen::VectorXd distance = cut - held.theta.cwiseAbs().array();
+  if (distance.minCoeff() <= 0.0) return 0.0;
+  if (held.newest.cols() == 0) return cut;
+  const Eigen::MatrixXd scaled = held.tail * distance.cwiseSqrt().cwiseInverse().asDiagonal();
+  Eigen::MatrixXd coupling = scaled * scaled.transpose();
+  return cut - symmetric_eigen(coupling).maxCoeff();
+}
+
+/// The probe with the held vectors in the space. An eigenvector (w, u) with |theta| >= cut > |B| has
+/// u = (theta - B)^-1 v s, which the powers of B on v approach as fast as the random columns show an
+/// eigenvalue of B itself; a small residual of the largest Ritz pair settles the rest.
+Probe coupled_probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
+                    int width, std::uint64_t seed) {
+  Probe out;
+  out.found = Eigen::MatrixXd(op.size(), 0);
+  const Eigen::Index inside = held.theta.size();
+  const Eigen::Index room = op.size() - deflated.cols() - inside;
+  const int extra = static_cast<int>(std::min<Eigen::Index>(width, room - held.newest.cols()));
+  const int block = static_cast<int>(held.newest.cols()) + extra;
+  BlockKrylov space(op, deflated, held, extra, (most_steps + 2) * block, seed);
+  for (int degree = 0;; ++degree) {
+    const bool more = space.step();
+    const BlockKrylov::Ritz ritz = space.ritz();
+    const double largest = std::abs(ritz.theta[0]);
+    if (largest >= cut) {
+      out.found = space.vectors(ritz, 0, (ritz.theta.cwiseAbs().array() >= cut).count());
+      return out;
+    }
+    const bool settled = ritz.residual[0] <= 0.25 * (cut - largest) &&
+                         must_have_shown(op, degree, space.radius_beyond(inside), cut);
+    out.clean = !more || settled;
+    if (out.clean) return out;
+    if (degree + 1 == most_steps) {
+      constexpr Eigen::Index most_held = 400;
+      held = space.neighbourhood(ritz, 0, std::min(most_held, ritz.theta.size()));
+      return out;
+    }
+  }
+}
 
 /// Modified Gram-Schmidt by blocks: b orthonormal and orthogonal to a. Purified vectors of separate
 /// runs are orthogonal to about their residuals only; this makes it exact.
@@ -54,7 +106,12 @@ double trim_and_cut(const ShiftInvert& op, const Wanted& wanted, EigenPairs& pai
   if (end < pairs.theta.size()) {
     const Eigen::Index over = pairs.theta.size() - end;
     pairs.next = std::abs(pairs.theta[end]);
-    pairs.neighbourhood = beside(pairs.vector.rightCols(over), pairs.neighbourhood);
+    Neighbourhood& rest = pairs.rest;
+    rest.vector = beside(pairs.vector.rightCols(over), rest.vector);
+    Eigen::VectorXd theta(over + rest.theta.size());
+    theta << pairs.theta.tail(over), rest.theta;
+    rest.theta = std::move(theta);
+    rest.tail = beside(Eigen::MatrixXd::Zero(rest.newest.cols(), over), rest.tail);
     pairs.vector.conservativeResize(Eigen::NoChange, end);
     pairs.theta.conservativeResize(end);
   }
@@ -70,31 +127,36 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return out;
 }
 
-Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut, int block, std::uint64_t seed) {
-  const Eigen::Index room = op.size() - deflated.cols();
+Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
+            std::uint64_t seed) {
   Probe out;
   out.found = Eigen::MatrixXd(op.size(), 0);
-  if (room <= 0) return out;
-  constexpr double shy = 0.1;
-  const int width = static_cast<int>(std::min<Eigen::Index>(block, room));
-  constexpr int most_steps = 40;
-  BlockKrylov space(op, deflated, {}, width, (most_steps + 2) * width, seed);
-  for (int degree = 0; degree < most_steps; ++degree) {  // degree of the polynomials in the space
-    const bool more = space.step();
-    const BlockKrylov::Ritz ritz = space.ritz();
-    const double rho = std::abs(ritz.theta[0]);
-    if (rho >= cut) {
-      const Eigen::Index found = (ritz.theta.cwiseAbs().array() >= cut).count();
-      out.clean = false;
-      out.found = space.vectors(ritz, 0, found);
+  const Eigen::Index room = op.size() - deflated.cols() - held.vector.cols();
+  const int width = static_cast<int>(std::min<Eigen::Index>(std::max(block, least_width), room));
+  const double lowered = cut_beside(held, cut);
+  if (lowered > 0.0) {
+    if (room <= 0) {
+      out.clean = true;
       return out;
     }
-    if (!more) return out;
-    const double x = op.positive ? 2.0 * cut / rho - 1.0 : cut / rho;
-    const double growth = chebyshev(degree, x);
-    if (growth * growth >= static_cast<double>(op.size()) / (shy * shy) * rho / (cut - rho)) return out;
+    const Eigen::MatrixXd all = beside(deflated, held.vector);
+    BlockKrylov space(op, all, Eigen::MatrixXd(op.size(), 0), width, (most_steps + 2) * width, seed);
+    for (int degree = 0; degree < most_steps; ++degree) {  // degree of the polynomials in the space
+      const bool more = space.step();
+      const BlockKrylov::Ritz ritz = space.ritz();
+      const double rho = std::abs(ritz.theta[0]);
+      if (rho >= cut) {
+        out.found = space.vectors(ritz, 0, (ritz.theta.cwiseAbs().array() >= cut).count());
+        return out;
+      }
+      if (rho >= lowered) break;
+      if (!more || must_have_shown(op, degree, rho, lowered)) {
+        out.clean = true;
+        return out;
+      }
+    }
   }
-  return out;
+  return coupled_probe(op, deflated, held, cut, width, seed);
 }
 
 void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
@@ -107,12 +169,12 @@ void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wante
     result.cut = trim_and_cut(op, wanted, pairs);
     ++again.seed;
     const Eigen::MatrixXd found = beside(known, pairs.vector);
-    const Probe seen =
-        probe(op, beside(found, pairs.neighbourhood), result.cut, std::max(4, again.block), again.seed);
+    const Probe seen = probe(op, found, pairs.rest, result.cut, again.block, again.seed);
     if (seen.clean) {
       result.clean = true;
       return;
     }
+    if (seen.found.cols() == 0) continue;
     sink.report("further copies");
     again.block = std::min(widest_block, 2 * again.block);
     EigenPairs fresh = block_lanczos(op, found, seen.found, {.count = 0, .floor = result.cut}, again);
@@ -120,7 +182,7 @@ void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wante
       result.message = "the search for further copies of repeated eigenvalues did not converge";
       return;
     }
-    pairs.neighbourhood = std::move(fresh.neighbourhood);
+    pairs.rest = std::move(fresh.rest);
     merge(pairs, fresh);
   }
   result.message = "modes kept turning up at or below the last one wanted";

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <functional>
 
+#include "block_krylov.hpp"
 #include "perimode/core/sink.hpp"
-#include "shift_invert.hpp"
 
 namespace perimode {
 
@@ -27,9 +27,9 @@ struct SearchSettings {
 /// Converged eigenpairs of Op outside a deflated space, largest |theta| first.
 struct EigenPairs {
   Eigen::VectorXd theta;
-  Eigen::MatrixXd vector;         ///< orthonormal to the accuracy of the iteration
-  double next = 0.0;              ///< no further |theta| was seen above this; 0: there is none
-  Eigen::MatrixXd neighbourhood;  ///< orthonormal, orthogonal to `vector`: what else the iteration holds
+  Eigen::MatrixXd vector;  ///< orthonormal to the accuracy of the iteration
+  double next = 0.0;       ///< no further |theta| was seen above this; 0: there is none
+  Neighbourhood rest;      ///< what else the iteration holds
   bool converged = false;
   int restarts = 0;
 };
@@ -56,17 +56,26 @@ using Method =
 [[nodiscard]] bool is_converged(const ShiftInvert& op, double theta, double residual, double largest,
                                 double tolerance);
 
-/// Looks for an eigenvalue |theta| >= cut of Op outside `deflated` with a random block. If there
-/// were one, a random block of p columns would have less than `shy`/sqrt(n) of it in every column
-/// with a probability of about shy^p only; the iteration runs until a component of that size must
-/// have shown: T_j(x)^2 >= n / shy^2 * rho / (cut - rho), T_j the Chebyshev polynomial for the
-/// spectrum seen, rho its largest Ritz value [Kuczynski & Wozniakowski 1992, the same argument].
+/// Looks for an eigenvalue |theta| >= cut of Op outside `deflated` with a random block of at least
+/// four columns. If there were one, a random block of p columns would have less than `shy`/sqrt(n) of
+/// it in every column with a probability of about (0.8 shy)^p only; the iteration runs until a
+/// component of that size must have shown: T_j(x)^2 >= n / shy^2 * rho / (cut - rho), T_j the Chebyshev
+/// polynomial for the spectrum seen, rho its largest Ritz value [Kuczynski & Wozniakowski 1992, the
+/// same argument].
+///
+/// The vectors W of `held` need not be looked for again, but they are not eigenvectors: a missing one
+/// may lie half in W and half outside. With t = held.tail and B = Op outside W the rest of Op is
+/// [[Theta, t^T v^T], [v t, B]], v = held.newest, which has nothing at or above the cut as long as
+///   |B| < cut - |t (cut - |Theta|)^-1 t^T|   (the Schur complement),
+/// and that is what is asked of B. Where it cannot be shown the iteration goes on from W and v
+/// themselves, with random columns beside them.
 struct Probe {
-  bool clean = true;
+  bool clean = false;
   Eigen::MatrixXd found;  ///< approximate eigenvectors with |theta| >= cut
 };
-[[nodiscard]] Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, double cut, int block,
-                          std::uint64_t seed);
+/// Neither clean nor anything found: undecided, and `held` is a better one to try again with.
+[[nodiscard]] Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
+                          int block, std::uint64_t seed);
 
 /// All wanted pairs: the method first, then random blocks deflated against everything found, until
 /// one finds nothing at or above the cut, which lies in the gap after the last wanted cluster.

@@ -48,17 +48,15 @@ TEST_F(MissedMode, InertiaNoticesALostCopy) {
 
 TEST_F(MissedMode, RestartAcceptsTheCompleteSet) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
-    EXPECT_TRUE(certify_by_restart(op_, found_.pairs.vector, found_.cut, 4, 2, seed).complete);
+    EXPECT_TRUE(certify_by_restart(op_, found_.pairs.vector, {}, found_.cut, 4, 2, seed).complete);
 }
 
 TEST_F(MissedMode, RestartNoticesALostCopyOfAnyMode) {
   for (Eigen::Index lost = 0; lost < 19; ++lost) {
     Eigen::MatrixXd left(k_.rows, 18);
     left << found_.pairs.vector.leftCols(lost), found_.pairs.vector.rightCols(18 - lost);
-    EXPECT_FALSE(certify_by_restart(op_, left, found_.cut, 4, 1, 17 + lost).complete) << lost;
-    EXPECT_FALSE(
-        certify_by_restart(op_, beside(left, found_.pairs.neighbourhood), found_.cut, 4, 1, lost).complete)
-        << lost;
+    EXPECT_FALSE(certify_by_restart(op_, left, {}, found_.cut, 4, 1, 17 + lost).complete) << lost;
+    EXPECT_FALSE(certify_by_restart(op_, left, found_.pairs.rest, found_.cut, 4, 1, lost).complete) << lost;
   }
 }
 
