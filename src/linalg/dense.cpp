@@ -23,10 +23,13 @@ std::vector<Eigen::Index> choose(const Eigen::VectorXd& value, const EigenOption
     });
     return pick;
   }
-  if (options.has_shift)
+  if (options.has_shift && value.size() > 0) {
+    // From above the spectrum the nearest are the largest; a far shift would round distances away.
+    const double shift = std::min(options.shift, value[value.size() - 1]);
     std::stable_sort(pick.begin(), pick.end(), [&](Eigen::Index a, Eigen::Index b) {
-      return std::abs(value[a] - options.shift) < std::abs(value[b] - options.shift);
+      return std::abs(value[a] - shift) < std::abs(value[b] - shift);
     });
+  }
   pick.resize(std::min<std::size_t>(pick.size(), std::max(options.count, 0)));
   std::sort(pick.begin(), pick.end());
   return pick;

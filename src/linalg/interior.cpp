@@ -24,6 +24,20 @@ struct Stretch {
   [[nodiscard]] Offset count() const { return below_upper - below_lower; }
 };
 
+/// No eigenvalue lies above: the largest row sum of |M^-1/2 K M^-1/2| [Gershgorin].
+double spectrum_bound(const EigenProblem& problem) {
+  const Csr& k = *problem.stiffness;
+  const Eigen::VectorXd root = problem.mass->cwiseSqrt();
+  double largest = 0.0;
+  for (Index i = 0; i < k.rows; ++i) {
+    double sum = 0.0;
+    for (Offset e = k.row_start[i]; e < k.row_start[i + 1]; ++e)
+      sum += std::abs(k.value[e]) / (root[i] * root[k.column[e]]);
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 /// What the searches of one request share.
 struct Interior {
   const EigenProblem& problem;
@@ -172,8 +186,10 @@ EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& optio
   out.engine = method_name(options);
   out.seconds_analyse = analysis.seconds();
   const Eigen::Index room = problem.mass->size() - interior.known.cols();
-  const SearchResult found =
-      interior.around(options.shift, {.count = std::min<Eigen::Index>(options.count, room)});
+  // Seen from above the spectrum the nearest are the largest, from wherever; from far away their
+  // distances would be all but equal and the iteration without a gap to work with.
+  const double shift = std::min(options.shift, 1.001 * spectrum_bound(problem));
+  const SearchResult found = interior.around(shift, {.count = std::min<Eigen::Index>(options.count, room)});
   rayleigh_ritz(problem, found.pairs.vector, out);
   if (!found.clean) {
     out.message = found.message;
@@ -193,7 +209,7 @@ EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& optio
   // The nearest `count`, ascending.
   std::vector<Eigen::Index> pick(out.value.size());
   std::iota(pick.begin(), pick.end(), 0);
-  const auto distance = [&](Eigen::Index i) { return std::abs(out.value[i] - options.shift); };
+  const auto distance = [&](Eigen::Index i) { return std::abs(out.value[i] - shift); };
   std::stable_sort(pick.begin(), pick.end(),
                    [&](Eigen::Index a, Eigen::Index b) { return distance(a) < distance(b); });
   pick.resize(std::min<std::size_t>(pick.size(), options.count));

@@ -176,6 +176,20 @@ TEST_P(Engine, FindsTheModesNearestToAShift) {
   EXPECT_TRUE(result.certificate.complete);
 }
 
+TEST_P(Engine, FindsTheLargestModesFromAShiftFarAboveTheSpectrum) {
+  const Csr k = test::random_definite(375, 8, 23);
+  const Eigen::VectorXd mass = test::random_mass(375, 24);
+  const Eigen::VectorXd all = reference_eigenvalues(k, mass);
+  for (const double factor : {1.5, 1e4, 1e20}) {
+    EigenOptions request = options(8);
+    request.has_shift = true;
+    request.shift = factor * all[374];
+    const EigenResult result = solve_eigen({.stiffness = &k, .mass = &mass}, request);
+    expect_values(result, {all.end() - 8, all.end()});
+    EXPECT_LE(result.solves, 2000) << factor;
+  }
+}
+
 TEST(Eigen, ServesARangeOfManyModesFromSeveralShifts) {
   const Index n = 5000;
   const Csr k = test::chain(n, true);
