@@ -15,6 +15,7 @@ namespace {
 constexpr const char* mark = "PERIMODE_PREPARED";
 
 bool lacks_avx512_kernels() {
+  __builtin_cpu_init();
   const std::string_view core = openblas_get_corename();
   return (core == "Haswell" || core == "Zen") && __builtin_cpu_supports("avx512f") &&
          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
