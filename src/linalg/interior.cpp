@@ -38,6 +38,17 @@ double spectrum_bound(const EigenProblem& problem) {
   return largest;
 }
 
+/// The largest eigenvalue from below, to about a part in a thousand: Lanczos on M^-1/2 K M^-1/2.
+double largest_estimate(const EigenProblem& problem, std::uint64_t seed) {
+  constexpr int steps = 40, block = 1;
+  ShiftInvert op{.root_mass = problem.mass->cwiseSqrt().cwiseInverse(),
+                 .solve = [&](const MatrixView& b) { return multiply(*problem.stiffness, b); }};
+  const Eigen::MatrixXd nothing(op.size(), 0);
+  BlockKrylov space(op, nothing, nothing, block, (steps + 2) * block, seed);
+  for (int step = 0; step < steps && space.step(); ++step) continue;
+  return std::abs(space.ritz().theta[0]);
+}
+
 /// What the searches of one request share.
 struct Interior {
   const EigenProblem& problem;
@@ -83,6 +94,14 @@ struct Interior {
   /// Eigenvalues below sigma; K >= 0 leaves none below zero.
   [[nodiscard]] Offset below(double sigma) const {
     return sigma <= 0.0 ? 0 : count_below(problem, sigma, order);
+  }
+  /// A shift with the same nearest modes. From above the spectrum these are the largest, from wherever,
+  /// but from far away their distances are all but equal and the iteration has no gap to work with.
+  [[nodiscard]] double brought_near(double sigma) const {
+    const double close = 1.003 * largest_estimate(problem, options.seed);
+    if (sigma <= close) return sigma;
+    if (below(close) == problem.stiffness->rows) return close;
+    return std::min(sigma, 1.001 * spectrum_bound(problem));
   }
   /// Of them, how many the caller knows: all (they are null vectors) or none.
   [[nodiscard]] Offset known_below(double sigma) const { return sigma <= 0.0 ? 0 : known.cols(); }
@@ -186,9 +205,7 @@ EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& optio
   out.engine = method_name(options);
   out.seconds_analyse = analysis.seconds();
   const Eigen::Index room = problem.mass->size() - interior.known.cols();
-  // Seen from above the spectrum the nearest are the largest, from wherever; from far away their
-  // distances would be all but equal and the iteration without a gap to work with.
-  const double shift = std::min(options.shift, 1.001 * spectrum_bound(problem));
+  const double shift = interior.brought_near(options.shift);
   const SearchResult found = interior.around(shift, {.count = std::min<Eigen::Index>(options.count, room)});
   rayleigh_ritz(problem, found.pairs.vector, out);
   if (!found.clean) {
