@@ -161,10 +161,15 @@ Eigen::VectorXd symmetric_eigen(Eigen::MatrixXd& h) {
   Eigen::VectorXd value(h.rows());
   const auto n = static_cast<lapack_int>(h.rows());
   if (n == 0) return value;
-  const lapack_int info = LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', n, h.data(), n, value.data());
+  const Eigen::MatrixXd given = h;
+  lapack_int info = LAPACKE_dsyevd(LAPACK_COL_MAJOR, 'V', 'U', n, h.data(), n, value.data());
+  if (info > 0) {  // divide and conquer gives up now and then on many equal eigenvalues; QR does not
+    h = given;
+    info = LAPACKE_dsyev(LAPACK_COL_MAJOR, 'V', 'U', n, h.data(), n, value.data());
+  }
   if (info != 0)
     throw Error(ErrorKind::solver_failure,
-                "dense eigenvalues: LAPACK dsyevd failed with code " + std::to_string(info));
+                "dense eigenvalues: LAPACK dsyevd and dsyev failed with code " + std::to_string(info));
   return value;
 }
 
