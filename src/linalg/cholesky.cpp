@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "cholmod_session.hpp"
+#include "cholmod_workspace.hpp"
 #include "perimode/linalg/factor.hpp"
 #include "supernodal_solve.hpp"
 
@@ -64,9 +64,9 @@ void refuse_wide_pattern(const Csr& pattern) {
                 "Cholesky: the matrix has more than 2^32 entries; take fewer particles");
 }
 
-cholmod_factor* analyse(CholmodSession& session, UpperTriangle& upper, const std::vector<Index>& order,
+cholmod_factor* analyse(CholmodWorkspace& workspace, UpperTriangle& upper, const std::vector<Index>& order,
                         int supernodal) {
-  cholmod_common* common = session.get();
+  cholmod_common* common = workspace.get();
   common->supernodal = supernodal;
   common->nmethods = 1;
   common->method[0].ordering = CHOLMOD_GIVEN;
@@ -75,7 +75,7 @@ cholmod_factor* analyse(CholmodSession& session, UpperTriangle& upper, const std
   cholmod_sparse view = upper.view();
   std::vector<int> given(order.begin(), order.end());
   cholmod_factor* factor = cholmod_analyze_p(&view, given.data(), nullptr, 0, common);
-  session.check(factor != nullptr, "analysis");
+  workspace.check(factor != nullptr, "analysis");
   return factor;
 }
 
@@ -111,27 +111,27 @@ FillEstimate estimate(const cholmod_common& common, double matrix_entries, doubl
 
 FillEstimate predict_fill(const Csr& pattern, std::span<const Index> node_of_dof) {
   refuse_wide_pattern(pattern);
-  CholmodSession session;
+  CholmodWorkspace workspace;
   UpperTriangle upper(pattern, false);
   cholmod_factor* factor =
-      analyse(session, upper, fill_reducing_order(pattern, node_of_dof), CHOLMOD_SIMPLICIAL);
-  cholmod_free_factor(&factor, session.get());
-  return estimate(*session.get(), static_cast<double>(upper.row.size()), pattern.rows);
+      analyse(workspace, upper, fill_reducing_order(pattern, node_of_dof), CHOLMOD_SIMPLICIAL);
+  cholmod_free_factor(&factor, workspace.get());
+  return estimate(*workspace.get(), static_cast<double>(upper.row.size()), pattern.rows);
 }
 
 struct CholeskyFactor::Handle {
   Handle(const Csr& pattern, std::vector<Index> given)
       : order(std::move(given)),
         upper(pattern, true),
-        factor(analyse(session, upper, order, CHOLMOD_SUPERNODAL)) {
-    fill = estimate(*session.get(), static_cast<double>(upper.row.size()), pattern.rows);
+        factor(analyse(workspace, upper, order, CHOLMOD_SUPERNODAL)) {
+    fill = estimate(*workspace.get(), static_cast<double>(upper.row.size()), pattern.rows);
     fill.factor_bytes = 8.0 * static_cast<double>(factor->xsize);
   }
-  ~Handle() { cholmod_free_factor(&factor, session.get()); }
+  ~Handle() { cholmod_free_factor(&factor, workspace.get()); }
   Handle(const Handle&) = delete;
   Handle& operator=(const Handle&) = delete;
 
-  CholmodSession session;
+  CholmodWorkspace workspace;
   std::vector<Index> order;
   UpperTriangle upper;
   cholmod_factor* factor;
@@ -156,10 +156,10 @@ CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
 FactorStatus CholeskyFactor::factorize(const Csr& matrix, double sigma, const Eigen::VectorXd& mass) {
   handle_->upper.fill(matrix, sigma, mass);
   cholmod_sparse view = handle_->upper.view();
-  cholmod_common* common = handle_->session.get();
+  cholmod_common* common = handle_->workspace.get();
   const SerialLoops serial;
   const int fine = cholmod_factorize(&view, handle_->factor, common);
-  handle_->session.check(fine != 0, "factorisation");
+  handle_->workspace.check(fine != 0, "factorisation");
   constexpr double smallest_pivot = 1e-13;
   const bool positive = common->status == CHOLMOD_OK && handle_->factor->minor == handle_->factor->n &&
                         cholmod_rcond(handle_->factor, common) > smallest_pivot;

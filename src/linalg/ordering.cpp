@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <numeric>
 
-#include "cholmod_session.hpp"
+#include "cholmod_workspace.hpp"
 #include "perimode/linalg/factor.hpp"
 
 namespace perimode {
@@ -47,7 +47,7 @@ NodeGraph node_graph(const Csr& pattern, std::span<const Index> node_of_dof) {
 std::vector<Index> fill_reducing_order(const Csr& pattern, std::span<const Index> node_of_dof) {
   NodeGraph graph = node_graph(pattern, node_of_dof);
   const std::size_t nodes = graph.first_dof.size() - 1;
-  CholmodSession session;
+  CholmodWorkspace workspace;
   cholmod_sparse view = {};
   view.nrow = view.ncol = nodes;
   view.nzmax = graph.row.size();
@@ -59,7 +59,7 @@ std::vector<Index> fill_reducing_order(const Csr& pattern, std::span<const Index
   view.packed = 1;
   std::vector<int> node_order(nodes);
   if (nodes > 1)
-    session.check(cholmod_metis(&view, nullptr, 0, 1, node_order.data(), session.get()) != 0, "ordering");
+    workspace.check(cholmod_metis(&view, nullptr, 0, 1, node_order.data(), workspace.get()) != 0, "ordering");
 
   std::vector<Index> order;
   order.reserve(pattern.rows);

@@ -80,39 +80,11 @@ EigenResult solve_symmetric(const EigenProblem& problem, EigenOptions wanted, co
   }
 }
 
-EigenEngine engine_of(ModalSolver solver) {
-  switch (solver) {
-    case ModalSolver::lanczos:
-      return EigenEngine::lanczos;
-    case ModalSolver::arpack:
-      return EigenEngine::arpack;
-    case ModalSolver::dense:
-      return EigenEngine::dense;
-    case ModalSolver::automatic:
-      break;
-  }
-  return EigenEngine::automatic;
-}
-
-CompletenessCheck check_of(CertificateMethod method) {
-  switch (method) {
-    case CertificateMethod::inertia:
-      return CompletenessCheck::inertia;
-    case CertificateMethod::restart:
-      return CompletenessCheck::restart;
-    case CertificateMethod::none:
-      return CompletenessCheck::none;
-    case CertificateMethod::automatic:
-      break;
-  }
-  return CompletenessCheck::automatic;
-}
-
 EigenOptions eigen_options(const ModalOptions& options, Eigen::Index rigid, Eigen::Index dofs, double scale) {
   EigenOptions wanted;
   const auto asked = static_cast<Eigen::Index>(options.modes.value_or(20));
-  wanted.engine = engine_of(options.solver);
-  wanted.check = check_of(options.certificate);
+  wanted.engine = options.solver;
+  wanted.check = options.certificate;
   wanted.block_size = options.block_size;
   wanted.scale = scale;
   if (options.range) {

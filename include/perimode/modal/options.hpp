@@ -4,15 +4,17 @@
 #include <optional>
 #include <utility>
 
+#include "perimode/linalg/eigen.hpp"
+
 namespace perimode {
 
 /// lanczos: block Lanczos with full reorthogonalisation on CHOLMOD's factor. arpack: ARPACK on
 /// the same factor. dense: LAPACK, all modes.
-enum class ModalSolver { automatic, lanczos, arpack, dense };
+using ModalSolver = EigenEngine;
 
 /// How the set of modes is shown to be complete. inertia: the count of negative pivots of
 /// K - sigma M. restart: a deflated random block finds nothing new below the last mode.
-enum class CertificateMethod { automatic, inertia, restart, none };
+using CertificateMethod = CompletenessCheck;
 
 enum class ReferenceKind { none, closed_form };
 

@@ -8,16 +8,16 @@
 namespace perimode {
 
 /// CHOLMOD's workspace and settings; silent, and its failures become our errors.
-class CholmodSession {
+class CholmodWorkspace {
  public:
-  CholmodSession() {
+  CholmodWorkspace() {
     cholmod_start(&common_);
     common_.print = 0;
     common_.error_handler = nullptr;
   }
-  ~CholmodSession() { cholmod_finish(&common_); }
-  CholmodSession(const CholmodSession&) = delete;
-  CholmodSession& operator=(const CholmodSession&) = delete;
+  ~CholmodWorkspace() { cholmod_finish(&common_); }
+  CholmodWorkspace(const CholmodWorkspace&) = delete;
+  CholmodWorkspace& operator=(const CholmodWorkspace&) = delete;
 
   [[nodiscard]] cholmod_common* get() { return &common_; }
 
