@@ -8,6 +8,8 @@ namespace perimode {
 
 namespace {
 
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 template <int Dim>
 constexpr int block_size = Dim * Dim;
 
@@ -290,36 +292,43 @@ std::vector<Index> particle_of_free_dof(const Body<Dim>& body) {
 }
 
 template <int Dim>
-double bond_energy(const Body<Dim>& body, const std::vector<double>& u) {
+Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displacement) {
   const Index n = body.count();
-  // Partial sums per row, added in order: the same bits for any number of threads.
-  std::vector<double> energy(n, 0.0);
-#pragma omp parallel for schedule(static)
-  for (Index i = 0; i < n; ++i) {
-    const Eigen::Map<const Point<Dim>> ui(u.data() + static_cast<std::size_t>(i) * Dim);
-    double sum = 0.0;
-    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-      const double k = bond_stiffness(body, i, end);
-      const Point<Dim> e = end.xi / end.length;
-      if (end.neighbour < n) {
-        const Eigen::Map<const Point<Dim>> uj(u.data() + static_cast<std::size_t>(end.neighbour) * Dim);
-        const double stretch = e.dot(uj - ui);
-        sum += 0.25 * k * stretch * stretch;  // the other end adds the other half
-        return;
-      }
-      const std::size_t g = static_cast<std::size_t>(end.neighbour - n);
-      Point<Dim> uj;
-      for (int a = 0; a < Dim; ++a) {
-        uj[a] = body.boundary.coefficient[g * Dim + a] *
-                u[static_cast<std::size_t>(body.boundary.image[g]) * Dim + a];
-      }
-      sum += 0.5 * k * e.dot(ui) * e.dot(ui - uj);
-    });
-    energy[i] = sum;
+  // The fields of one dof lie side by side; partial sums per particle are added in order below.
+  const RowMajor u = displacement;
+  RowMajor energy = RowMajor::Zero(n, u.cols());
+#pragma omp parallel
+  {
+    Eigen::RowVectorXd stretch(u.cols());
+    Eigen::RowVectorXd own(u.cols());
+#pragma omp for schedule(static)
+    for (Index i = 0; i < n; ++i) {
+      for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+        const double k = bond_stiffness(body, i, end);
+        const Point<Dim> e = end.xi / end.length;
+        if (end.neighbour < n) {
+          stretch = e[0] * (u.row(end.neighbour * Dim) - u.row(i * Dim));
+          for (int a = 1; a < Dim; ++a)
+            stretch += e[a] * (u.row(end.neighbour * Dim + a) - u.row(i * Dim + a));
+          energy.row(i).array() += 0.25 * k * stretch.array().square();  // the other end adds the other half
+          return;
+        }
+        const std::size_t g = static_cast<std::size_t>(end.neighbour - n);
+        const double* coefficient = body.boundary.coefficient.data() + g * Dim;
+        const Index image = body.boundary.image[g] * Dim;
+        own.setZero();
+        stretch.setZero();
+        for (int a = 0; a < Dim; ++a) {
+          own += e[a] * u.row(i * Dim + a);
+          stretch += e[a] * (u.row(i * Dim + a) - coefficient[a] * u.row(image + a));
+        }
+        energy.row(i).array() += 0.5 * k * own.array() * stretch.array();
+      });
+    }
   }
-  double total = 0.0;
-  for (double e : energy) total += e;
-  return total;
+  Eigen::RowVectorXd total = Eigen::RowVectorXd::Zero(u.cols());
+  for (Index i = 0; i < n; ++i) total += energy.row(i);
+  return total.transpose();
 }
 
 #define PERIMODE_ASSEMBLE(D)                                           \
@@ -328,7 +337,7 @@ double bond_energy(const Body<Dim>& body, const std::vector<double>& u) {
   template BlockCsr assemble_stiffness<D>(const Body<D>&);             \
   template Eigen::VectorXd lumped_mass<D>(const Body<D>&);             \
   template std::vector<Index> particle_of_free_dof<D>(const Body<D>&); \
-  template double bond_energy<D>(const Body<D>&, const std::vector<double>&)
+  template Eigen::VectorXd bond_energy<D>(const Body<D>&, const Eigen::MatrixXd&)
 PERIMODE_ASSEMBLE(1);
 PERIMODE_ASSEMBLE(2);
 PERIMODE_ASSEMBLE(3);

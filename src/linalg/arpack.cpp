@@ -14,6 +14,7 @@
 namespace perimode {
 namespace {
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is a view, and x is written through it
 void project_out(const Eigen::MatrixXd& deflated, Eigen::Ref<Eigen::MatrixXd> x) {
   for (int pass = 0; pass < 2; ++pass) add_product(-1.0, deflated, transposed_product(deflated, x), x);
 }

@@ -35,7 +35,7 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
     first.colwise().normalize();
     project_out(first, 0);
   }
-  (void)take_in(std::move(first), 0, 1.0);
+  (void)take_in(first, 0, 1.0);
 }
 
 BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held,
@@ -56,7 +56,7 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
     first.colwise().normalize();
     project_out(first, known_);
   }
-  const Eigen::MatrixXd factor = take_in(std::move(first), known_, 1.0);
+  const Eigen::MatrixXd factor = take_in(first, known_, 1.0);
   tail_ = Eigen::MatrixXd::Zero(next_, known_);
   if (held.tail.size() > 0) tail_ = product(factor.leftCols(held.newest.cols()), held.tail);
 }
@@ -66,7 +66,7 @@ void BlockKrylov::project_out(Eigen::Ref<Eigen::MatrixXd> fresh, Eigen::Index us
   add_product(-1.0, basis_.leftCols(used), transposed_product(basis_.leftCols(used), fresh), fresh);
 }
 
-Eigen::MatrixXd BlockKrylov::take_in(Eigen::MatrixXd fresh, Eigen::Index used, double scale) {
+Eigen::MatrixXd BlockKrylov::take_in(const Eigen::MatrixXd& fresh, Eigen::Index used, double scale) {
   const Eigen::Index room = std::min<Eigen::Index>(op_.size() - deflated_.cols() - used, block_);
   const Eigen::Index width = fresh.cols();
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(std::max<Eigen::Index>(room, 0), width);
@@ -113,18 +113,22 @@ bool BlockKrylov::step() {
   Eigen::MatrixXd fresh = op_.apply(newest());
   Eigen::MatrixXd h = Eigen::MatrixXd::Zero(used, used);
   h.topLeftCorner(known_, known_) = h_;
-  for (int pass = 0; pass < 2; ++pass) {
-    add_product(-1.0, deflated_, transposed_product(deflated_, fresh), fresh);
-    const Eigen::MatrixXd part = transposed_product(basis_.leftCols(used), fresh);
-    add_product(-1.0, basis_.leftCols(used), part, fresh);
-    h.rightCols(width) += part;
+  // Op is symmetric: apart from round-off the image reaches only the columns that the last step coupled, the
+  // previous block as a rule. Those are taken out first, so that one pass over everything then suffices.
+  for (const Eigen::Index first : {coupled_, Eigen::Index{0}}) {
+    const auto columns = basis_.middleCols(first, used - first);
+    const Eigen::MatrixXd part = transposed_product(columns, fresh);
+    add_product(-1.0, columns, part, fresh);
+    h.rightCols(width).bottomRows(used - first) += part;
   }
+  add_product(-1.0, deflated_, transposed_product(deflated_, fresh), fresh);
   h.bottomLeftCorner(width, known_) = h.topRightCorner(known_, width).transpose();
   const Eigen::MatrixXd corner = h.bottomRightCorner(width, width);
   h.bottomRightCorner(width, width) = 0.5 * (corner + corner.transpose());
   h_ = std::move(h);
   known_ = used;
-  const Eigen::MatrixXd factor = take_in(std::move(fresh), used, h_.cwiseAbs().maxCoeff());
+  coupled_ = used - width;
+  const Eigen::MatrixXd factor = take_in(fresh, used, h_.cwiseAbs().maxCoeff());
   tail_ = Eigen::MatrixXd::Zero(next_, known_);
   tail_.rightCols(width) = factor;
   return next_ > 0;
@@ -180,6 +184,7 @@ void BlockKrylov::restart(const Ritz& ritz, Eigen::Index count) {
   h_ = ritz.theta.head(count).asDiagonal();
   tail_ = product(tail_, ritz.coefficient.leftCols(count));
   known_ = count;
+  coupled_ = 0;
 }
 
 }  // namespace perimode

@@ -69,7 +69,7 @@ class BlockKrylov {
  private:
   /// Makes `fresh` orthonormal and orthogonal to everything; returns its triangular factor.
   /// Dependent columns are replaced by random ones while there is room in the space.
-  Eigen::MatrixXd take_in(Eigen::MatrixXd fresh, Eigen::Index used, double scale);
+  Eigen::MatrixXd take_in(const Eigen::MatrixXd& fresh, Eigen::Index used, double scale);
   void project_out(Eigen::Ref<Eigen::MatrixXd> fresh, Eigen::Index used) const;
 
   ShiftInvert& op_;
@@ -81,6 +81,7 @@ class BlockKrylov {
   Eigen::MatrixXd h_;      ///< known_ x known_
   Eigen::MatrixXd tail_;   ///< next_ x known_: Op V = V H + newest * tail
   Eigen::Index known_ = 0, next_ = 0;
+  Eigen::Index coupled_ = 0;  ///< first column that the newest block is coupled to, tail_ being zero before
 };
 
 /// n x count standard normal numbers.

@@ -147,12 +147,13 @@ Eigen::MatrixXd translations(const Body<Dim>& body) {
   return r;
 }
 
-/// Displacements of all particle dofs in a mode: the free ones move, the others stay.
+/// Displacements of all particle dofs in each mode: the free ones move, the others stay.
 template <int Dim>
-std::vector<double> motion_of(const Body<Dim>& body, const Eigen::VectorXd& x) {
-  std::vector<double> u(body.boundary.free_number.size(), 0.0);
-  for (std::size_t d = 0; d < u.size(); ++d) {
-    if (body.boundary.free_number[d] >= 0) u[d] = x[body.boundary.free_number[d]];
+Eigen::MatrixXd motions_of(const Body<Dim>& body, const Eigen::MatrixXd& modes) {
+  const auto& number = body.boundary.free_number;
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(number.size()), modes.cols());
+  for (std::size_t d = 0; d < number.size(); ++d) {
+    if (number[d] >= 0) u.row(static_cast<Eigen::Index>(d)) = modes.row(number[d]);
   }
   return u;
 }
@@ -223,10 +224,11 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
     result.seconds_analyse = r.seconds_analyse;
     result.seconds_factor = r.seconds_factor;
     result.seconds_iterate = r.seconds_iterate;
+    const Eigen::VectorXd energy = bond_energy(body, motions_of(body, r.vector));
     for (Eigen::Index k = 0; k < r.value.size(); ++k) {
       const Eigen::VectorXd x = r.vector.col(k);
       const double norm2 = x.dot(problem.mass.cwiseProduct(x));
-      const double value = 2.0 * bond_energy(body, motion_of(body, x)) / norm2;
+      const double value = 2.0 * energy[k] / norm2;
       const bool zero = value <= 1e-14 * result.largest;
       if (zero) ++result.mechanisms;
       pairs.value.push_back(zero ? 0.0 : value);

@@ -34,11 +34,12 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Index> particle_of_free_dof(const Body<Dim>& body);
 
-/// Strain energy of displacements of all particle dofs summed bond by bond,
+/// Strain energies of displacements of all particle dofs (dofs x fields, m) summed bond by bond,
 ///   U = 1/2 sum_b k_b (n . (u_j - u_i))^2, J,
 /// bonds to ghosts counted as u_i . (their force on i) / 2. All terms between particles are positive, so the
-/// relative error stays near round-off where x^T K x loses digits. Cost O(bonds).
+/// relative error stays near round-off where x^T K x loses digits. The same bits for any number of threads.
+/// Cost O(bonds * fields).
 template <int Dim>
-[[nodiscard]] double bond_energy(const Body<Dim>& body, const std::vector<double>& displacement);
+[[nodiscard]] Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displacement);
 
 }  // namespace perimode

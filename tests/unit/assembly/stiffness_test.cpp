@@ -266,10 +266,10 @@ TEST(BondEnergy, IsHalfTheQuadraticFormOfK) {
     const Eigen::MatrixXd k = dense(assemble_stiffness(body));
     std::mt19937 gen(3);
     std::normal_distribution<double> normal;
-    Eigen::VectorXd u(k.rows());
-    for (auto& x : u) x = normal(gen);
-    const double energy = bond_energy(body, std::vector<double>(u.begin(), u.end()));
-    EXPECT_NEAR(energy, 0.5 * u.dot(k * u), 1e-13 * energy);
+    Eigen::MatrixXd u(k.rows(), 3);
+    for (auto& x : u.reshaped()) x = normal(gen);
+    const Eigen::VectorXd energy = bond_energy(body, u);
+    for (int f = 0; f < 3; ++f) EXPECT_NEAR(energy[f], 0.5 * u.col(f).dot(k * u.col(f)), 1e-13 * energy[f]);
   }
 }
 
