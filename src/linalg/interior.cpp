@@ -82,7 +82,8 @@ struct Interior {
       }
       result.seconds_factor += factorisation.seconds();
       const Stopwatch iteration;
-      SearchResult found = search(op, known, wanted, search_settings(options), search_method(options), sink);
+      SearchResult found = search(op, known, wanted, search_settings(options, problem.stiffness->rows),
+                                  search_method(options), sink);
       result.seconds_iterate += iteration.seconds();
       result.solves += op.solves;
       result.restarts += found.pairs.restarts;

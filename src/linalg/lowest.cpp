@@ -48,7 +48,7 @@ Certificate certify(const EigenProblem& problem, const EigenOptions& options, co
       options.check == CompletenessCheck::inertia ||
       (options.check == CompletenessCheck::automatic &&
        inertia_is_cheap(problem.stiffness->rows, factor.fill().nonzeros, factor.fill().flops));
-  SearchSettings settings = search_settings(options);
+  SearchSettings settings = search_settings(options, problem.stiffness->rows);
   Certificate out;
   constexpr int most_searches = 3;
   for (int attempt = 0;; ++attempt) {
@@ -92,7 +92,8 @@ EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& option
   const Stopwatch iteration;
   const Eigen::MatrixXd known = known_directions(problem);
   const Wanted wanted{.count = std::min<Eigen::Index>(options.count, op.size() - known.cols())};
-  SearchResult found = search(op, known, wanted, search_settings(options), search_method(options), sink);
+  SearchResult found = search(op, known, wanted, search_settings(options, problem.stiffness->rows),
+                              search_method(options), sink);
   out.seconds_iterate = iteration.seconds();
   out.solves = op.solves;
   if (found.clean) {

@@ -6,8 +6,11 @@
 
 namespace perimode {
 
-SearchSettings search_settings(const EigenOptions& options) {
-  return {.block = options.block_size > 0 ? options.block_size : 4,
+SearchSettings search_settings(const EigenOptions& options, Index rows) {
+  // A large factor streams from memory, and a pass over it for eight vectors costs little more than for four.
+  constexpr Index streams_from = 20'000;
+  const int block = rows < streams_from ? 4 : 8;
+  return {.block = options.block_size > 0 ? options.block_size : block,
           .tolerance = options.tolerance,
           .seed = options.seed};
 }

@@ -21,7 +21,7 @@ void check(const EigenProblem& problem, const EigenOptions& options);
 [[nodiscard]] EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& options,
                                         const Sink& sink);
 
-[[nodiscard]] SearchSettings search_settings(const EigenOptions& options);
+[[nodiscard]] SearchSettings search_settings(const EigenOptions& options, Index rows);
 [[nodiscard]] Method search_method(const EigenOptions& options);
 [[nodiscard]] const char* method_name(const EigenOptions& options);
 

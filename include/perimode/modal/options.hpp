@@ -26,7 +26,7 @@ struct ModalOptions {
   ModalSolver solver = ModalSolver::automatic;
   CertificateMethod certificate = CertificateMethod::automatic;
   ReferenceKind reference = ReferenceKind::none;
-  int block_size = 0;  ///< of block Lanczos; 0: chosen (4, or 8 for cubes)
+  int block_size = 0;  ///< of block Lanczos; 0: 4, and 8 from 20,000 dofs on
 };
 
 }  // namespace perimode
