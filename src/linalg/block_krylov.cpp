@@ -61,6 +61,7 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
   if (held.tail.size() > 0) tail_ = product(factor.leftCols(held.newest.cols()), held.tail);
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): a Ref is a view, and fresh is written through it
 void BlockKrylov::project_out(Eigen::Ref<Eigen::MatrixXd> fresh, Eigen::Index used) const {
   add_product(-1.0, deflated_, transposed_product(deflated_, fresh), fresh);
   add_product(-1.0, basis_.leftCols(used), transposed_product(basis_.leftCols(used), fresh), fresh);
