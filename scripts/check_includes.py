@@ -10,7 +10,7 @@ import pathlib
 import re
 import sys
 
-ROOMS = ["core", "geometry", "linalg", "bonds", "material", "boundary", "assembly", "modal", "dynamics",
+ROOMS = ["core", "geometry", "linalg", "bonds", "material", "boundary", "assembly", "modal", "statics", "dynamics",
          "fracture", "dispersion", "reference", "io", "cli"]
 LONG = 400
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

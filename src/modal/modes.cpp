@@ -195,7 +195,8 @@ template <int Dim>
 void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
                           const ModalOptions& options, double scale, const Sink& sink) {
   sink.report("rigid modes");
-  const Eigen::MatrixXd rigid = rigid_modes(body, problem.stiffness, problem.mass);
+  const Eigen::MatrixXd rigid =
+      rigid_modes(body, as_operator(problem.stiffness), norm_inf(problem.stiffness), problem.mass);
   EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
   wanted.negative_shift = -1e-2 * scale;
   const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle,

@@ -79,7 +79,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   const double assembling = body_bytes(body) + block_bytes + csr_bytes;
   double solving = 0.0;
   const bool symmetric = plan.asymmetry <= 1e-12;
-  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, k, mass).cols());
+  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, as_operator(k), norm_inf(k), mass).cols());
 
   const bool small = dofs <= (symmetric ? EigenOptions{}.dense_limit : unsymmetric_dense_limit);
   if (options.solver == ModalSolver::dense || (options.solver == ModalSolver::automatic && small)) {

@@ -31,7 +31,8 @@ double motion(int k, int a, const Point<Dim>& x) {
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const Eigen::VectorXd& mass) {
+Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffness, double bound,
+                            const Eigen::VectorXd& mass) {
   constexpr int R = motions<Dim>;
   using Small = Eigen::Matrix<double, R, R>;
   const Index n = body.count();
@@ -66,7 +67,7 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const E
     gram[piece_of_dof[d]] += mass[d] * q.row(d).transpose() * q.row(d);
     force[piece_of_dof[d]] += kq.row(d).transpose() * kq.row(d) / mass[d];
   }
-  const double largest = norm_inf(stiffness) / std::max(mass.minCoeff(), 1e-300);  // bounds lambda_max
+  const double largest = bound / std::max(mass.minCoeff(), 1e-300);  // bounds lambda_max
   struct Found {
     Index piece;
     Eigen::Matrix<double, R, 1> combination;
@@ -114,8 +115,11 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness, const E
   return modes;
 }
 
-template Eigen::MatrixXd rigid_modes<1>(const Body<1>&, const Csr&, const Eigen::VectorXd&);
-template Eigen::MatrixXd rigid_modes<2>(const Body<2>&, const Csr&, const Eigen::VectorXd&);
-template Eigen::MatrixXd rigid_modes<3>(const Body<3>&, const Csr&, const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<1>(const Body<1>&, const LinearOperator&, double,
+                                        const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<2>(const Body<2>&, const LinearOperator&, double,
+                                        const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<3>(const Body<3>&, const LinearOperator&, double,
+                                        const Eigen::VectorXd&);
 
 }  // namespace perimode

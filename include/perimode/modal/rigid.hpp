@@ -4,16 +4,17 @@
 #include <Eigen/Core>
 
 #include "perimode/assembly/body.hpp"
-#include "perimode/linalg/sparse.hpp"
+#include "perimode/linalg/operator.hpp"
 
 namespace perimode {
 
 /// Rigid motions the supports, walls and periods of a body leave free, piece by piece: all combinations of
 /// a piece's translations and linearised rotations with K q = 0 on the free dofs. Columns are M-orthonormal,
-/// shape (free dofs x rigid modes); periodic bodies give their 1 to 3 translations.
-/// Cost O(nonzeros * pieces' motions). docs/theory/04_modal.md.
+/// shape (free dofs x rigid modes); periodic bodies give their 1 to 3 translations. `stiffness` is R K T,
+/// `bound` at least the magnitude of its eigenvalues (stiffness_bound, norm_inf).
+/// Cost: 1, 3 or 6 products. docs/theory/04_modal.md.
 template <int Dim>
-[[nodiscard]] Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const Csr& stiffness,
-                                          const Eigen::VectorXd& mass);
+[[nodiscard]] Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffness,
+                                          double bound, const Eigen::VectorXd& mass);
 
 }  // namespace perimode
