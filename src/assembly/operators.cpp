@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/assembly/operators.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "bond_form.hpp"
 #include "perimode/assembly/assemble.hpp"
+#include "perimode/core/error.hpp"
+#include "stencil.hpp"
 
 namespace perimode {
 
@@ -28,24 +32,114 @@ Eigen::VectorXd with_ghosts(const Body<Dim>& body, const Eigen::VectorXd& u) {
   return all;
 }
 
-/// Scalar rows of the assembled matrix; fixed dofs struck out.
+/// Blocked rows over all dofs of the particles; fixed ones are zero on the way in and left out on the way
+/// out.
 template <int Dim>
-LinearOperator assembled_operator(const Body<Dim>& body) {
-  const auto matrix =
-      std::make_shared<const Csr>(scalar_csr(assemble_stiffness(body), body.boundary.free_number));
-  return {matrix->rows, [matrix](const double* x, double* y) { as_operator(*matrix).apply(x, y); }};
+struct BlockForm {
+  const BoundaryMap<Dim>* boundary;
+  BlockCsr matrix;
+  std::vector<double> u, f;  ///< work; empty where all dofs are free
+
+  void apply(const double* x, double* y) {
+    if (u.empty()) {
+      const auto dofs = boundary->free_number.size();
+      return multiply(matrix, {x, dofs}, {y, dofs});
+    }
+    const auto dofs = static_cast<Offset>(u.size());
+#pragma omp parallel for schedule(static)
+    for (Offset d = 0; d < dofs; ++d) u[d] = boundary->free_number[d] < 0 ? 0.0 : x[boundary->free_number[d]];
+    multiply(matrix, u, f);
+#pragma omp parallel for schedule(static)
+    for (Offset d = 0; d < dofs; ++d)
+      if (boundary->free_number[d] >= 0) y[boundary->free_number[d]] = f[d];
+  }
+};
+
+template <int Dim>
+bool all_free(const BoundaryMap<Dim>& boundary) {
+  return static_cast<std::size_t>(boundary.free) == boundary.free_number.size();
+}
+
+template <int Dim>
+BlockForm<Dim> make_block_form(const Body<Dim>& body) {
+  BlockForm<Dim> form{&body.boundary, assemble_stiffness(body), {}, {}};
+  if (!all_free(body.boundary)) {
+    form.u.resize(body.boundary.free_number.size());
+    form.f.resize(body.boundary.free_number.size());
+  }
+  return form;
+}
+
+/// Particles that bonds of particle i meet, directly or through ghosts, and i itself.
+template <int Dim>
+Offset columns_of(const Body<Dim>& body, Index i) {
+  std::vector<Index> column = {i};
+  for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+    const auto ghost = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
+    if (end.neighbour < body.count()) {
+      column.push_back(end.neighbour);
+    } else if (std::any_of(body.boundary.coefficient.begin() + ghost * Dim,
+                           body.boundary.coefficient.begin() + (ghost + 1) * Dim,
+                           [](double c) { return c != 0.0; })) {
+      column.push_back(body.boundary.image[ghost]);
+    }
+  });
+  std::sort(column.begin(), column.end());
+  return std::unique(column.begin(), column.end()) - column.begin();
+}
+
+template <int Dim>
+double block_form_bytes(const Body<Dim>& body) {
+  Offset blocks = 0;
+#pragma omp parallel for schedule(static) reduction(+ : blocks)
+  for (Index i = 0; i < body.count(); ++i) blocks += columns_of(body, i);
+  const double dofs = all_free(body.boundary) ? 0.0 : static_cast<double>(body.boundary.free_number.size());
+  return static_cast<double>(blocks) * (sizeof(Index) + Dim * Dim * sizeof(double)) +
+         (body.count() + 1.0) * sizeof(Offset) + 2.0 * dofs * sizeof(double) + sizeof(BlockForm<Dim>);
+}
+
+/// The form that `automatic` stands for.
+template <int Dim>
+StiffnessForm chosen_form(const Body<Dim>& body, StiffnessForm form) {
+  const bool grid = std::holds_alternative<GridBonds<Dim>>(body.bonds);
+  if (form == StiffnessForm::automatic) return grid ? StiffnessForm::stencil : StiffnessForm::bonds;
+  if (form == StiffnessForm::stencil && !grid) {
+    invalid_input({"a grid for the stencil form of K", "a cloud", "use the form bonds or blocks", {}});
+  }
+  return form;
+}
+
+template <class Form>
+LinearOperator shared_operator(Index size, Form form) {
+  const auto held = std::make_shared<Form>(std::move(form));
+  return {size, [held](const double* x, double* y) { held->apply(x, y); }};
 }
 
 }  // namespace
 
 template <int Dim>
-LinearOperator stiffness_operator(const Body<Dim>& body, StiffnessForm /*form*/) {
-  return assembled_operator(body);
+LinearOperator stiffness_operator(const Body<Dim>& body, StiffnessForm form) {
+  const Index size = body.boundary.free;
+  switch (chosen_form(body, form)) {
+    case StiffnessForm::blocks:
+      return shared_operator(size, make_block_form(body));
+    case StiffnessForm::bonds:
+      return shared_operator(size, make_bond_form(body));
+    default:
+      return shared_operator(size, make_stencil(body));
+  }
 }
 
 template <int Dim>
-double operator_bytes(const Body<Dim>& body, StiffnessForm /*form*/) {
-  return 2.0 * static_cast<double>(count_bonds(body.bonds, body.count())) * (4.0 + 8.0 * Dim * Dim);
+double operator_bytes(const Body<Dim>& body, StiffnessForm form) {
+  switch (chosen_form(body, form)) {
+    case StiffnessForm::blocks:
+      return block_form_bytes(body);
+    case StiffnessForm::bonds:
+      return bond_form_bytes(body);
+    default:
+      return make_stencil(body).bytes();
+  }
 }
 
 template <int Dim>

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "bond_form.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "linalg/vector_kernels.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
+
+/// K u of one particle. Two sums take turns, so that a bond does not wait for the one before.
+template <int Dim>
+[[gnu::always_inline]] inline void sum_ends(const double* b, const Index* neighbour, Offset ends,
+                                            const double* u, const double* here, double* sum) {
+  double even[Dim] = {}, odd[Dim] = {};
+  const auto add = [&](Offset e, double* to) {
+    const double* other = u + static_cast<Offset>(neighbour[e]) * Dim;
+    const double* n = b + e * Dim;
+    double stretch = n[0] * (here[0] - other[0]);
+    for (int a = 1; a < Dim; ++a) stretch += n[a] * (here[a] - other[a]);
+    for (int a = 0; a < Dim; ++a) to[a] += n[a] * stretch;
+  };
+  Offset e = 0;
+  for (; e + 2 <= ends; e += 2) {
+    add(e, even);
+    add(e + 1, odd);
+  }
+  if (e < ends) add(e, even);
+  for (int a = 0; a < Dim; ++a) sum[a] = even[a] + odd[a];
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void sum_particles(const BondForm<Dim>& form, const double* u, Index begin,
+                                                 Index end, double* y) {
+  const Index* number = form.u.empty() ? nullptr : form.body->boundary.free_number.data();
+  for (Index i = begin; i < end; ++i) {
+    const std::size_t dof = static_cast<std::size_t>(i) * Dim;
+    double sum[Dim];
+    sum_ends<Dim>(form.b.data() + form.start[i] * Dim, form.neighbour.data() + form.start[i],
+                  form.start[i + 1] - form.start[i], u, u + dof, sum);
+    for (int a = 0; a < Dim; ++a) {
+      if (number == nullptr)
+        y[dof + a] = sum[a];
+      else if (number[dof + a] >= 0)
+        y[number[dof + a]] = sum[a];
+    }
+  }
+}
+
+PERIMODE_EVERY_PROCESSOR void sum_1(const BondForm<1>& form, const double* u, Index begin, Index end,
+                                    double* y) {
+  sum_particles<1>(form, u, begin, end, y);
+}
+PERIMODE_EVERY_PROCESSOR void sum_2(const BondForm<2>& form, const double* u, Index begin, Index end,
+                                    double* y) {
+  sum_particles<2>(form, u, begin, end, y);
+}
+PERIMODE_EVERY_PROCESSOR void sum_3(const BondForm<3>& form, const double* u, Index begin, Index end,
+                                    double* y) {
+  sum_particles<3>(form, u, begin, end, y);
+}
+
+/// All dofs free and no ghosts: the product reads x itself.
+template <int Dim>
+bool unconstrained(const Body<Dim>& body) {
+  return body.boundary.image.empty() && body.boundary.free == body.count() * Dim;
+}
+
+template <int Dim>
+void expand(const BoundaryMap<Dim>& boundary, const double* x, std::vector<double>& u) {
+  const std::size_t dofs = boundary.free_number.size();
+#pragma omp parallel for schedule(static) if (dofs > parallel_rows * Dim)
+  for (std::size_t d = 0; d < dofs; ++d)
+    u[d] = boundary.free_number[d] < 0 ? 0.0 : x[boundary.free_number[d]];
+  for (std::size_t g = 0; g < boundary.image.size(); ++g) {
+    for (int a = 0; a < Dim; ++a)
+      u[dofs + g * Dim + a] =
+          boundary.coefficient[g * Dim + a] * u[static_cast<std::size_t>(boundary.image[g]) * Dim + a];
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+void BondForm<Dim>::apply(const double* x, double* y) {
+  if (!u.empty()) expand(body->boundary, x, u);
+  const double* all = u.empty() ? x : u.data();
+  const Index n = body->count();
+  constexpr Index slice = 256;
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
+  for (Index begin = 0; begin < n; begin += slice) {
+    const Index end = std::min(n, begin + slice);
+    if constexpr (Dim == 1) sum_1(*this, all, begin, end, y);
+    if constexpr (Dim == 2) sum_2(*this, all, begin, end, y);
+    if constexpr (Dim == 3) sum_3(*this, all, begin, end, y);
+  }
+}
+
+template <int Dim>
+BondForm<Dim> make_bond_form(const Body<Dim>& body) {
+  const Index n = body.count();
+  BondForm<Dim> form;
+  form.body = &body;
+  form.start.assign(static_cast<std::size_t>(n) + 1, 0);
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
+  for (Index i = 0; i < n; ++i)
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>&) { ++form.start[i + 1]; });
+  for (Index i = 0; i < n; ++i) form.start[i + 1] += form.start[i];
+  form.neighbour.resize(static_cast<std::size_t>(form.start[n]));
+  form.b.resize(static_cast<std::size_t>(form.start[n]) * Dim);
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
+  for (Index i = 0; i < n; ++i) {
+    Offset at = form.start[i];
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Point<Dim> b = std::sqrt(bond_stiffness(body, i, end)) / end.length * end.xi;
+      form.neighbour[at] = end.neighbour;
+      std::copy_n(b.data(), Dim, form.b.data() + at * Dim);
+      ++at;
+    });
+  }
+  if (!unconstrained(body)) form.u.resize((static_cast<std::size_t>(n) + body.boundary.image.size()) * Dim);
+  return form;
+}
+
+template <int Dim>
+double bond_form_bytes(const Body<Dim>& body) {
+  const Index n = body.count();
+  Offset ends = 0;
+#pragma omp parallel for schedule(static) reduction(+ : ends) if (n > parallel_rows)
+  for (Index i = 0; i < n; ++i)
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>&) { ++ends; });
+  const double points =
+      unconstrained(body) ? 0.0 : static_cast<double>(n) + static_cast<double>(body.boundary.image.size());
+  return static_cast<double>(ends) * (sizeof(Index) + Dim * sizeof(double)) +
+         (static_cast<double>(n) + 1.0) * sizeof(Offset) + points * Dim * sizeof(double) +
+         sizeof(BondForm<Dim>);
+}
+
+#define PERIMODE_BOND_FORM(D)                             \
+  template struct BondForm<D>;                            \
+  template BondForm<D> make_bond_form<D>(const Body<D>&); \
+  template double bond_form_bytes<D>(const Body<D>&)
+PERIMODE_BOND_FORM(1);
+PERIMODE_BOND_FORM(2);
+PERIMODE_BOND_FORM(3);
+#undef PERIMODE_BOND_FORM
+
+}  // namespace perimode

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "perimode/assembly/body.hpp"
+
+namespace perimode {
+
+/// K as its alive bonds: per bond end the vector b = sqrt(k_b) n and the partner.
+template <int Dim>
+struct BondForm {
+  const Body<Dim>* body = nullptr;
+  std::vector<Offset> start;     ///< particles + 1
+  std::vector<Index> neighbour;  ///< from the number of particles on: ghosts
+  std::vector<double> b;         ///< Dim per end, sqrt(N/m)
+  std::vector<double> u;         ///< work: displacements of all particles and ghosts; empty: those given
+
+  /// y = K x over the free dofs: (K u)_i = sum_b b (b . (u_i - u_j)).
+  void apply(const double* x, double* y);
+};
+
+/// Cost O(bond ends). `body` has to outlive it.
+template <int Dim>
+[[nodiscard]] BondForm<Dim> make_bond_form(const Body<Dim>& body);
+
+/// Bytes that the bond form of a body takes. Cost O(bond ends).
+template <int Dim>
+[[nodiscard]] double bond_form_bytes(const Body<Dim>& body);
+
+}  // namespace perimode

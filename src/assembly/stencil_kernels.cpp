@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "stencil_kernels.hpp"
+
+#include <algorithm>
+
+#include "linalg/vector_kernels.hpp"
+
+namespace perimode {
+namespace {
+
+constexpr int width = 8;
+using Vector __attribute__((vector_size(width * sizeof(double)), aligned(8), may_alias)) = double;
+using Bits __attribute__((vector_size(width * sizeof(double)), aligned(8), may_alias)) = std::int64_t;
+static_assert(stencil_slack == width);
+
+/// Adds the pairs whose offsets have the components of Pattern to y, for Groups * width particles.
+template <int Dim, int Pattern, int Groups>
+[[gnu::always_inline]] inline void add_whole_pairs(const StencilPairs& pairs, const StencilRun& run,
+                                                   std::ptrdiff_t t, const Vector (&twice)[Dim][Groups],
+                                                   Vector (&y)[Dim][Groups]) {
+  for (int p = pairs.start[Pattern]; p < pairs.start[Pattern + 1]; ++p) {
+    const double* up = run.at[pairs.member[p]] + run.cell + t;
+    const double* um = run.at[pairs.last - pairs.member[p]] + run.cell + t;
+    const double* b = run.b + p * Dim;
+    Vector s[Groups] = {};
+    for (int a = 0; a < Dim; ++a) {
+      if ((Pattern >> a & 1) == 0) continue;
+      for (int g = 0; g < Groups; ++g) {
+        const Vector sum = *reinterpret_cast<const Vector*>(up + a * run.stride + g * width) +
+                           *reinterpret_cast<const Vector*>(um + a * run.stride + g * width);
+        s[g] += b[a] * (twice[a][g] - sum);
+      }
+    }
+    for (int a = 0; a < Dim; ++a) {
+      if ((Pattern >> a & 1) == 0) continue;
+      for (int g = 0; g < Groups; ++g) y[a][g] += b[a] * s[g];
+    }
+  }
+}
+
+template <int Dim, int Groups>
+[[gnu::always_inline]] inline void whole_group(const StencilPairs& pairs, const StencilRun& run,
+                                               std::ptrdiff_t t) {
+  Vector twice[Dim][Groups];
+  Vector y[Dim][Groups] = {};
+  for (int a = 0; a < Dim; ++a) {
+    for (int g = 0; g < Groups; ++g)
+      twice[a][g] =
+          2.0 * *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t + g * width);
+  }
+  add_whole_pairs<Dim, 1, Groups>(pairs, run, t, twice, y);
+  if constexpr (Dim > 1) {
+    add_whole_pairs<Dim, 2, Groups>(pairs, run, t, twice, y);
+    add_whole_pairs<Dim, 3, Groups>(pairs, run, t, twice, y);
+  }
+  if constexpr (Dim > 2) {
+    add_whole_pairs<Dim, 4, Groups>(pairs, run, t, twice, y);
+    add_whole_pairs<Dim, 5, Groups>(pairs, run, t, twice, y);
+    add_whole_pairs<Dim, 6, Groups>(pairs, run, t, twice, y);
+    add_whole_pairs<Dim, 7, Groups>(pairs, run, t, twice, y);
+  }
+  for (int a = 0; a < Dim; ++a) {
+    for (int g = 0; g < Groups; ++g)
+      *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t + g * width) = y[a][g];
+  }
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void whole(const StencilPairs& pairs, const StencilRun& run) {
+  Index t = 0;
+  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2>(pairs, run, t);
+  if (t < run.count) whole_group<Dim, 1>(pairs, run, t);
+}
+
+/// Weight per lane of the bond to a family member: 0 where it is not alive, (f_i + f_j) / 2 where it is.
+template <bool Factors>
+[[gnu::always_inline]] inline void bond_weights(const StencilBits& bits, int member, std::ptrdiff_t t,
+                                                const Vector& half, Vector& weight) {
+  const Bits word = *reinterpret_cast<const Bits*>(bits.lanes + (member / 64) * width);
+  const Bits alive = (word & static_cast<std::int64_t>(std::uint64_t{1} << (member % 64))) != 0;
+  if constexpr (Factors) {
+    const Vector value = half + 0.5 * *reinterpret_cast<const Vector*>(bits.factor + t + bits.step[member]);
+    weight = (Vector)((Bits)value & alive);
+  } else {
+    const Vector value = half;
+    weight = (Vector)((Bits)value & alive);
+  }
+}
+
+template <int Dim, int Pattern, bool Factors>
+[[gnu::always_inline]] inline void add_partial_pairs(const StencilPairs& pairs, const StencilRun& run,
+                                                     const StencilBits& bits, std::ptrdiff_t t,
+                                                     const Vector (&here)[Dim], const Vector& half,
+                                                     Vector (&y)[Dim]) {
+  for (int p = pairs.start[Pattern]; p < pairs.start[Pattern + 1]; ++p) {
+    const int k = pairs.member[p];
+    const double* up = run.at[k] + run.cell + t;
+    const double* um = run.at[pairs.last - k] + run.cell + t;
+    const double* b = run.b + p * Dim;
+    Vector plus, minus;
+    bond_weights<Factors>(bits, k, t, half, plus);
+    bond_weights<Factors>(bits, pairs.last - k, t, half, minus);
+    Vector s = {};
+    for (int a = 0; a < Dim; ++a) {
+      if ((Pattern >> a & 1) == 0) continue;
+      s += b[a] * (plus * (here[a] - *reinterpret_cast<const Vector*>(up + a * run.stride)) +
+                   minus * (here[a] - *reinterpret_cast<const Vector*>(um + a * run.stride)));
+    }
+    for (int a = 0; a < Dim; ++a) {
+      if ((Pattern >> a & 1) != 0) y[a] += b[a] * s;
+    }
+  }
+}
+
+template <int Dim, bool Factors>
+[[gnu::always_inline]] inline void partial(const StencilPairs& pairs, const StencilRun& run,
+                                           const StencilBits& bits) {
+  for (Index t = 0; t < run.count; t += width) {
+    const int valid = std::min<Index>(width, run.count - t);
+    for (int w = 0; w < bits.words; ++w) {
+      for (int lane = 0; lane < width; ++lane) {
+        bits.lanes[w * width + lane] =
+            lane < valid ? bits.alive[static_cast<std::ptrdiff_t>(t + lane) * bits.words + w] : 0;
+      }
+    }
+    Vector here[Dim];
+    Vector y[Dim] = {};
+    for (int a = 0; a < Dim; ++a)
+      here[a] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t);
+    Vector half = Vector{} + 1.0;
+    if constexpr (Factors) half = 0.5 * *reinterpret_cast<const Vector*>(bits.factor + t);
+    add_partial_pairs<Dim, 1, Factors>(pairs, run, bits, t, here, half, y);
+    if constexpr (Dim > 1) {
+      add_partial_pairs<Dim, 2, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 3, Factors>(pairs, run, bits, t, here, half, y);
+    }
+    if constexpr (Dim > 2) {
+      add_partial_pairs<Dim, 4, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 5, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 6, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 7, Factors>(pairs, run, bits, t, here, half, y);
+    }
+    for (int a = 0; a < Dim; ++a) *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t) = y[a];
+  }
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void partial_any(const StencilPairs& pairs, const StencilRun& run,
+                                               const StencilBits& bits) {
+  if (bits.factor != nullptr)
+    partial<Dim, true>(pairs, run, bits);
+  else
+    partial<Dim, false>(pairs, run, bits);
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void apart(const double* __restrict from, Index count, std::ptrdiff_t stride,
+                                         double* __restrict to) {
+  for (std::ptrdiff_t t = 0; t < count; ++t) {
+    for (int a = 0; a < Dim; ++a) to[a * stride + t] = from[Dim * t + a];
+  }
+}
+
+template <int Dim>
+[[gnu::always_inline]] inline void together(const double* __restrict from, Index count, std::ptrdiff_t stride,
+                                            double* __restrict to) {
+  for (std::ptrdiff_t t = 0; t < count; ++t) {
+    for (int a = 0; a < Dim; ++a) to[Dim * t + a] = from[a * stride + t];
+  }
+}
+
+PERIMODE_EVERY_PROCESSOR void whole_1(const StencilPairs& p, const StencilRun& r) { whole<1>(p, r); }
+PERIMODE_EVERY_PROCESSOR void whole_2(const StencilPairs& p, const StencilRun& r) { whole<2>(p, r); }
+PERIMODE_EVERY_PROCESSOR void whole_3(const StencilPairs& p, const StencilRun& r) { whole<3>(p, r); }
+PERIMODE_EVERY_PROCESSOR void partial_1(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
+  partial_any<1>(p, r, b);
+}
+PERIMODE_EVERY_PROCESSOR void partial_2(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
+  partial_any<2>(p, r, b);
+}
+PERIMODE_EVERY_PROCESSOR void partial_3(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
+  partial_any<3>(p, r, b);
+}
+PERIMODE_EVERY_PROCESSOR void apart_2(const double* from, Index n, std::ptrdiff_t stride, double* to) {
+  apart<2>(from, n, stride, to);
+}
+PERIMODE_EVERY_PROCESSOR void apart_3(const double* from, Index n, std::ptrdiff_t stride, double* to) {
+  apart<3>(from, n, stride, to);
+}
+PERIMODE_EVERY_PROCESSOR void together_2(const double* from, Index n, std::ptrdiff_t stride, double* to) {
+  together<2>(from, n, stride, to);
+}
+PERIMODE_EVERY_PROCESSOR void together_3(const double* from, Index n, std::ptrdiff_t stride, double* to) {
+  together<3>(from, n, stride, to);
+}
+
+}  // namespace
+
+template <>
+void whole_families<1>(const StencilPairs& pairs, const StencilRun& run) {
+  whole_1(pairs, run);
+}
+template <>
+void whole_families<2>(const StencilPairs& pairs, const StencilRun& run) {
+  whole_2(pairs, run);
+}
+template <>
+void whole_families<3>(const StencilPairs& pairs, const StencilRun& run) {
+  whole_3(pairs, run);
+}
+template <>
+void partial_families<1>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
+  partial_1(pairs, run, bits);
+}
+template <>
+void partial_families<2>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
+  partial_2(pairs, run, bits);
+}
+template <>
+void partial_families<3>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
+  partial_3(pairs, run, bits);
+}
+template <>
+void deinterleave<1>(const double* from, Index count, std::ptrdiff_t, double* to) {
+  std::copy_n(from, count, to);
+}
+template <>
+void deinterleave<2>(const double* from, Index count, std::ptrdiff_t stride, double* to) {
+  apart_2(from, count, stride, to);
+}
+template <>
+void deinterleave<3>(const double* from, Index count, std::ptrdiff_t stride, double* to) {
+  apart_3(from, count, stride, to);
+}
+template <>
+void interleave<1>(const double* from, Index count, std::ptrdiff_t, double* to) {
+  std::copy_n(from, count, to);
+}
+template <>
+void interleave<2>(const double* from, Index count, std::ptrdiff_t stride, double* to) {
+  together_2(from, count, stride, to);
+}
+template <>
+void interleave<3>(const double* from, Index count, std::ptrdiff_t stride, double* to) {
+  together_3(from, count, stride, to);
+}
+
+}  // namespace perimode

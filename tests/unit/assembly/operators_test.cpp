@@ -1,0 +1,441 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/assembly/operators.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/linalg/threads.hpp"
+#include "support/models.hpp"
+
+namespace perimode {
+namespace {
+
+using test::add_crack;
+using test::add_wall;
+using test::add_walls;
+using test::box_model;
+using test::fix_face;
+
+constexpr std::array kernels = {Kernel::constant, Kernel::conical, Kernel::gaussian,
+                                Kernel::inverse_distance};
+constexpr std::array calibrations = {Calibration::continuum, Calibration::discrete,
+                                     Calibration::discrete_cut};
+constexpr std::array wall_types = {WallType::odd, WallType::even, WallType::mirror, WallType::antimirror,
+                                   WallType::zero_layer};
+
+Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  return Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
+}
+
+/// sum_b k_b |n| (|n| . (|u_i| + |u_j|)): the sizes of the numbers each row sums, before they cancel.
+template <int Dim>
+Eigen::VectorXd sizes(const Body<Dim>& body, const Eigen::VectorXd& x) {
+  const auto& map = body.boundary;
+  const auto u = map.expand(x.data());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 0; i < body.count(); ++i) {
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Point<Dim> n = (end.xi / end.length).cwiseAbs();
+      double stretch = 0.0;
+      for (int a = 0; a < Dim; ++a) {
+        const std::size_t own = static_cast<std::size_t>(i) * Dim + a;
+        const auto g = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
+        const double other =
+            end.neighbour < body.count()
+                ? u[static_cast<std::size_t>(end.neighbour) * Dim + a]
+                : map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a];
+        stretch += n[a] * ((map.free_number[own] < 0 ? 0.0 : std::abs(u[own])) + std::abs(other));
+      }
+      for (int a = 0; a < Dim; ++a) {
+        const Index number = map.free_number[static_cast<std::size_t>(i) * Dim + a];
+        if (number >= 0) out[number] += bond_stiffness(body, i, end) * n[a] * stretch;
+      }
+    });
+  }
+  return out;
+}
+
+/// Every form times a random vector is the assembled matrix times it. Each row sums up to some hundred
+/// products whose sizes add up to `sizes`; round-off of the sums, of b = sqrt(k) n and of the harmonic mean
+/// is a few units in the last place (2e-16) of that, a few tens at the very worst.
+template <int Dim>
+void expect_forms_equal_the_matrix(const Body<Dim>& body, unsigned seed = 1) {
+  const Csr matrix = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  const Eigen::VectorXd x = random_vector(body.boundary.free, seed);
+  const Eigen::VectorXd expected = multiply(as_operator(matrix), x);
+  const Eigen::VectorXd scale = sizes(body, x);
+  for (auto form :
+       {StiffnessForm::automatic, StiffnessForm::stencil, StiffnessForm::bonds, StiffnessForm::blocks}) {
+    if (form == StiffnessForm::stencil && !body.particles.grid) continue;
+    const auto k = stiffness_operator(body, form);
+    ASSERT_EQ(k.size, body.boundary.free);
+    for (int repeat = 0; repeat < 2; ++repeat) {  // the second product meets used memory
+      Eigen::VectorXd y = Eigen::VectorXd::Constant(k.size, std::nan(""));
+      k.apply(x.data(), y.data());
+      const Eigen::ArrayXd excess = (y - expected).array().abs() - 2e-14 * scale.array();
+      ASSERT_TRUE((excess <= 0.0).all()) << "form " << static_cast<int>(form) << ", worst "
+                                         << excess.maxCoeff() << " of " << body.count() << " particles";
+    }
+  }
+}
+
+template <int Dim>
+void expect_forms_equal_the_matrix(const Model& model, unsigned seed = 1) {
+  expect_forms_equal_the_matrix(build_body<Dim>(model), seed);
+}
+
+void expect_any(const Model& model, unsigned seed = 1) {
+  if (model.dimension == 1) expect_forms_equal_the_matrix<1>(model, seed);
+  if (model.dimension == 2) expect_forms_equal_the_matrix<2>(model, seed);
+  if (model.dimension == 3) expect_forms_equal_the_matrix<3>(model, seed);
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForEveryKernelAndCalibration) {
+  for (auto kernel : kernels) {
+    for (auto calibration : calibrations) {
+      for (auto correction : {VolumeCorrection::none, VolumeCorrection::linear}) {
+        for (const auto& cells : {std::vector{57}, std::vector{35, 23}, std::vector{13, 11, 12}}) {
+          Model m = box_model(cells, 0.5, cells.size() == 3 ? 2.0 : 3.0);
+          m.material.micromodulus.kernel = kernel;
+          m.calibration = calibration;
+          m.volume_correction = correction;
+          if (cells.size() == 1) add_crack(m, {{10.0}});
+          if (cells.size() == 2) add_crack(m, {{5.0, -0.1}, {5.0, 4.5}});
+          if (cells.size() == 3) {
+            add_crack(m, {{3.0, -1.0, -1.0}, {3.0, 3.0, -1.0}, {3.0, 3.0, 9.0}, {3.0, -1.0, 9.0}});
+          }
+          expect_any(m);
+        }
+      }
+    }
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForEveryWall) {
+  for (auto type : wall_types) {
+    for (auto other : {WallType::mirror, WallType::odd}) {
+      for (const auto& cells : {std::vector{31}, std::vector{26, 17}, std::vector{9, 12, 10}}) {
+        Model m = box_model(cells, 0.5, cells.size() == 3 ? 2.0 : 3.0);
+        add_wall(m, 0, false, type);
+        add_wall(m, static_cast<int>(cells.size()) - 1, true, other);
+        expect_any(m);
+        if (cells.size() > 1) add_wall(m, 1, false, type);
+        m.calibration = Calibration::discrete;
+        expect_any(m);
+      }
+    }
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixAtSurfaceNodes) {
+  for (int cells : {1, 2, 5, 40}) {
+    for (auto type : {WallType::odd, WallType::surface_nodes}) {
+      Model bar = box_model({cells}, 0.5, 3.0);
+      add_wall(bar, 0, false, type);
+      bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {0.25}}, {}});
+      expect_any(bar);
+      bar.calibration = Calibration::discrete;
+      expect_any(bar);
+    }
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForTinyAndPeriodicBodies) {
+  for (int n = 1; n <= 5; ++n) {
+    for (bool periodic : {false, true}) {
+      for (const auto& cells : {std::vector{n}, std::vector{n, 3}, std::vector{3, n}, std::vector{n, 2, 3},
+                                std::vector{2, 3, n}, std::vector{4, n, 1}}) {
+        Model m = box_model(cells, 1.0, 3.0);
+        m.periodic[0] = periodic;
+        if (cells.size() > 1) m.periodic[cells.size() - 1] = periodic;
+        expect_any(m);
+        if (cells.size() > 1 && !periodic) {
+          add_walls(m, 1, WallType::antimirror);
+          expect_any(m);
+        }
+      }
+    }
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForFixedDofs) {
+  for (const auto& cells : {std::vector{30}, std::vector{29, 18}, std::vector{12, 11, 13}}) {
+    const int dim = static_cast<int>(cells.size());
+    for (int c = 0; c < dim; ++c) {
+      Model m = box_model(cells, 1.0, 2.0);
+      fix_face(m, 0, false, 3, {c});
+      fix_face(m, dim - 1, true, 2, dim == 1 ? std::vector{0} : std::vector{0, 1});
+      if (dim == 2) fix_face(m, 1, false, 1, {0, 1});
+      expect_any(m);
+    }
+  }
+  Model still = box_model({3, 2}, 1.0, 3.0);  // nothing left to move
+  fix_face(still, 0, false, 3, {0, 1});
+  const auto body = build_body<2>(still);
+  const auto k = stiffness_operator(body);
+  EXPECT_EQ(k.size, 0);
+  k.apply(nullptr, nullptr);
+}
+
+Model of_blocks(const std::vector<int>& cells, Calibration calibration) {
+  Model m = box_model(cells, 1.0, 3.0);
+  Coordinates centre;
+  for (int n : cells) centre.push_back(n / 3.0);
+  m.blocks.push_back({"stiff", Region{BallRegion{centre, 3.0}, {}}});
+  for (double& c : centre) c += 5.0;
+  m.blocks.push_back({"same", Region{BallRegion{centre, 3.0}, {}}});
+  m.block_materials["stiff"] = m.material;
+  m.block_materials["stiff"].youngs_modulus = 7.0;
+  m.block_materials["stiff"].micromodulus.kernel = Kernel::gaussian;
+  std::get<GridSpec>(m.particles).remove.push_back(Region{BallRegion{{12.0, 3.0, 4.0}, 1.9}, {}});
+  m.calibration = calibration;
+  return m;
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForBlocksAndHoles) {
+  for (auto calibration : calibrations) {
+    for (const auto& cells : {std::vector{33}, std::vector{29, 18}, std::vector{14, 11, 12}}) {
+      Model m = of_blocks(cells, calibration);
+      auto& ball = std::get<BallRegion>(std::get<GridSpec>(m.particles).remove[0].shape);
+      ball.centre.resize(cells.size());
+      expect_any(m);
+      m.periodic[0] = true;
+      expect_any(m);
+    }
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixAfterBondsBreak) {
+  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
+    Model m = box_model({31, 22}, 1.0, 3.0);
+    add_walls(m, 0, WallType::mirror);
+    m.calibration = calibration;
+    auto body = build_body<2>(m);
+    std::mt19937 generator(3);
+    for (int k = 0; k < 400; ++k)
+      break_bond(body.bonds, static_cast<Index>(generator() % 682), generator() % 28);
+    expect_forms_equal_the_matrix(body);
+  }
+}
+
+/// A cloud file for the life of the test.
+struct CloudFile {
+  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "operators_cloud.csv";
+  explicit CloudFile(int dim) {
+    std::ofstream out(path);
+    out << (dim == 1 ? "x" : dim == 2 ? "x,y" : "x,y,z") << ",volume,block\n";
+    std::mt19937 generator(7);
+    std::uniform_real_distribution<double> uniform(0.0, 1.0);
+    for (int i = 0; i < 300; ++i) {
+      for (int a = 0; a < dim; ++a) out << 5.0 * uniform(generator) << ',';
+      out << 0.5 + uniform(generator) << ',' << (i % 3 == 0 ? "one" : "two") << '\n';
+    }
+  }
+  ~CloudFile() { std::filesystem::remove(path); }
+};
+
+template <int Dim>
+void expect_cloud() {
+  const CloudFile file(Dim);
+  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
+    Model m;
+    m.dimension = Dim;
+    m.particles = CloudSpec{file.path, {}};
+    m.horizon = {HorizonSpec::Rule::neighbours, 12.0, {}};
+    m.material.youngs_modulus = m.material.density = 1.0;
+    m.block_materials["one"] = m.material;
+    m.block_materials["one"].youngs_modulus = 3.0;
+    m.calibration = calibration;
+    expect_forms_equal_the_matrix<Dim>(m);
+    m.boundary.push_back({Fix{{0}, Region{FaceRegion{{0, false}, 0, 0.6}, {}}}, {}});
+    expect_forms_equal_the_matrix<Dim>(m);
+  }
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixOnClouds) {
+  expect_cloud<1>();
+  expect_cloud<2>();
+  expect_cloud<3>();
+}
+
+TEST(Operators, TheStencilOfACloudIsRefused) {
+  const CloudFile file(2);
+  Model m;
+  m.particles = CloudSpec{file.path, {}};
+  m.horizon = {HorizonSpec::Rule::neighbours, 12.0, {}};
+  m.material.youngs_modulus = m.material.density = 1.0;
+  const auto body = build_body<2>(m);
+  EXPECT_THROW((void)stiffness_operator(body, StiffnessForm::stencil), Error);
+  EXPECT_THROW((void)operator_bytes(body, StiffnessForm::stencil), Error);
+}
+
+/// Any mixture of what a model can have, small.
+Model random_model(unsigned seed) {
+  std::mt19937 generator(seed);
+  const auto upto = [&](int n) { return static_cast<int>(generator() % static_cast<unsigned>(n)); };
+  const int dim = 1 + upto(3);
+  std::vector<int> cells;
+  for (int a = 0; a < dim; ++a) cells.push_back(1 + upto(dim == 3 ? 10 : dim == 2 ? 30 : 70));
+  Model m = box_model(cells, 0.25, 1.5 + 0.3 * upto(dim == 3 ? 5 : 10));
+  m.material.micromodulus.kernel = kernels[upto(4)];
+  m.volume_correction = upto(2) ? VolumeCorrection::none : VolumeCorrection::linear;
+  for (int a = 0; a < dim; ++a) {
+    m.periodic[a] = upto(4) == 0;
+    for (bool upper : {false, true})
+      if (!m.periodic[a] && upto(3) == 0) add_wall(m, a, upper, wall_types[upto(5)]);
+  }
+  for (int k = upto(3); k > 0; --k) fix_face(m, upto(dim), upto(2) == 0, 1 + upto(2), {upto(dim)});
+  if (cells[0] > 3 && upto(2)) {
+    Coordinates upper;
+    for (int n : cells) upper.push_back(0.25 * n);
+    upper[0] *= 0.5;
+    m.blocks.push_back({"left", Region{BoxRegion{Coordinates(cells.size(), 0.0), upper}, {}}});
+    m.block_materials["left"] = m.material;
+    if (upto(2)) m.block_materials["left"].youngs_modulus = 2.5;
+    Coordinates lower(cells.size(), 0.0);
+    lower[0] = 0.25 * (cells[0] - 1);
+    for (int a = 1; a < dim; ++a) upper[a] = 0.3;
+    upper[0] = 0.25 * cells[0];
+    if (dim > 1 && cells[1] > 1 && upto(2))
+      std::get<GridSpec>(m.particles).remove.push_back(Region{BoxRegion{lower, upper}, {}});
+  }
+  m.calibration =
+      m.horizon.value >= 2.0 && dim > 1 && cells[0] > 2 ? calibrations[upto(2)] : Calibration::continuum;
+  return m;
+}
+
+TEST(Operators, EveryFormEqualsTheMatrixForRandomModels) {
+  for (unsigned seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_any(random_model(seed), seed);
+  }
+}
+
+TEST(Operators, TranslationsOfFreeBodiesGiveNoForce) {
+  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
+    Model m = box_model({25, 21}, 0.1, 3.0);
+    m.calibration = calibration;
+    const auto body = build_body<2>(m);
+    Eigen::VectorXd shift(2 * body.count());
+    for (Index i = 0; i < body.count(); ++i) shift.segment<2>(2 * i) << 0.3, -0.7;
+    for (auto form : {StiffnessForm::stencil, StiffnessForm::bonds}) {  // sums of differences: exactly
+      EXPECT_EQ(multiply(stiffness_operator(body, form), shift).cwiseAbs().maxCoeff(), 0.0);
+    }
+  }
+}
+
+TEST(Operators, AnyNumberOfThreadsGivesTheSameBits) {
+  const int before = threads();
+  for (const auto& cells : {std::vector{3000}, std::vector{61, 47}, std::vector{15, 14, 17}}) {
+    Model m = of_blocks(cells, Calibration::discrete);
+    std::get<GridSpec>(m.particles).remove.clear();
+    add_wall(m, 0, false, WallType::mirror);
+    const auto check = [&](const auto& body) {
+      const Eigen::VectorXd x = random_vector(body.boundary.free, 5);
+      for (auto form : {StiffnessForm::stencil, StiffnessForm::bonds, StiffnessForm::blocks}) {
+        set_threads(1);
+        const auto k = stiffness_operator(body, form);  // made for one thread, used by more
+        const Eigen::VectorXd one = multiply(k, x);
+        for (int count : {2, 3}) {
+          set_threads(count);
+          EXPECT_TRUE((multiply(k, x).array() == one.array()).all()) << count << " threads";
+        }
+      }
+    };
+    if (m.dimension == 1) check(build_body<1>(m));
+    if (m.dimension == 2) check(build_body<2>(m));
+    if (m.dimension == 3) check(build_body<3>(m));
+  }
+  set_threads(before);
+}
+
+TEST(Operators, InternalForceIsTheOperatorOnFreeBodies) {
+  Model m = box_model({19, 14}, 0.5, 3.0);
+  add_walls(m, 1, WallType::odd);
+  m.calibration = Calibration::discrete;
+  const auto body = build_body<2>(m);
+  const Eigen::VectorXd x = random_vector(body.boundary.free, 2);
+  const Eigen::VectorXd difference = internal_force(body, x) - multiply(stiffness_operator(body), x);
+  EXPECT_TRUE((difference.array().abs() <= 2e-14 * sizes(body, x).array()).all());
+}
+
+TEST(Operators, InternalForceTakesGivenValuesOfGhosts) {
+  Model bar = box_model({20}, 1.0, 3.0);
+  bar.boundary.push_back({Wall{{0, false}, WallType::surface_nodes, {0.0}}, {}});
+  bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {2.0}}, {}});
+  const auto body = build_body<1>(bar);
+  Eigen::VectorXd stretched(20);
+  for (int i = 0; i < 20; ++i) stretched[i] = 0.1 * (i + 0.5);
+  // Uniform strain through both surface points is in equilibrium; forces of single bonds are about 1.
+  EXPECT_LE(internal_force(body, stretched).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+template <int Dim>
+void expect_blocks_and_bound(const Model& model) {
+  const auto body = build_body<Dim>(model);
+  const BlockCsr k = assemble_stiffness(body);
+  const auto blocks = diagonal_blocks(body);
+  double largest = 0.0;
+  double worst = 0.0;
+  for (Index i = 0; i < k.rows; ++i) {
+    for (Offset e = k.row_start[i]; e < k.row_start[i + 1]; ++e) {
+      for (int c = 0; k.column[e] == i && c < Dim * Dim; ++c) {
+        largest = std::max(largest, std::abs(k.value[e * Dim * Dim + c]));
+        worst = std::max(worst, std::abs(k.value[e * Dim * Dim + c] -
+                                         blocks[static_cast<std::size_t>(i) * Dim * Dim + c]));
+      }
+    }
+  }
+  EXPECT_LE(worst, 1e-13 * largest);
+  const double norm = norm_inf(scalar_csr(k, body.boundary.free_number));
+  EXPECT_GE(stiffness_bound(body), norm * (1.0 - 1e-13));
+  if (body.boundary.image.empty()) {
+    EXPECT_NEAR(stiffness_bound(body), norm, 1e-13 * norm);
+  }
+}
+
+TEST(Operators, DiagonalBlocksAndTheBoundAreThoseOfTheMatrix) {
+  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
+    Model bar = box_model({20}, 0.5, 3.0);
+    Model plate = of_blocks({19, 17}, calibration);
+    std::get<GridSpec>(plate.particles).remove.clear();
+    fix_face(plate, 0, false, 2, {1});
+    Model block = box_model({7, 6, 8}, 0.5, 2.0);
+    block.calibration = calibration;
+    expect_blocks_and_bound<1>(bar);
+    expect_blocks_and_bound<2>(plate);
+    expect_blocks_and_bound<3>(block);
+    add_wall(bar, 0, true, WallType::surface_nodes);
+    add_wall(plate, 1, false, WallType::antimirror);
+    add_walls(block, 2, WallType::odd);
+    expect_blocks_and_bound<1>(bar);
+    expect_blocks_and_bound<2>(plate);
+    expect_blocks_and_bound<3>(block);
+  }
+}
+
+TEST(Operators, BytesCountWhatIsStored) {
+  Model m = box_model({40, 30}, 1.0, 3.0);
+  const auto body = build_body<2>(m);
+  const double ends = 2.0 * static_cast<double>(count_bonds(body.bonds, body.count()));
+  // Beside the arrays per bond end there are row starts: 8 bytes for some 26 ends.
+  EXPECT_NEAR(operator_bytes(body, StiffnessForm::bonds), 20.0 * ends, 0.03 * 20.0 * ends);
+  EXPECT_NEAR(operator_bytes(body, StiffnessForm::blocks), 36.0 * (ends + 1200.0), 0.01 * 36.0 * ends);
+  // The stencil keeps 7 layers of 46 cells and two components, 48 (odd: 56) numbers each, and a short plan.
+  EXPECT_LT(operator_bytes(body, StiffnessForm::stencil), 0.1 * operator_bytes(body, StiffnessForm::bonds));
+  add_walls(m, 0, WallType::mirror);
+  const auto walls = build_body<2>(m);
+  const BlockCsr k = assemble_stiffness(walls);
+  EXPECT_NEAR(operator_bytes(walls, StiffnessForm::blocks), 36.0 * static_cast<double>(k.blocks()),
+              0.01 * 36.0 * static_cast<double>(k.blocks()));
+}
+
+}  // namespace
+}  // namespace perimode
