@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Factorisation, solves and the 20 lowest modes of a plane lattice clamped all round: unit square,
 // 200 x 200 particles, horizon of three spacings, constant micromodulus 9 E / (pi delta^3), no volume
-// correction, E = rho = thickness = 1, K divided by rho V. Times are process CPU seconds; the program
-// takes one thread unless PERIMODE_BENCH_THREADS says otherwise.
+// correction, E = rho = thickness = 1, K divided by rho V. The orders are compared on cubes too. Times are
+// process CPU seconds; the program takes one thread unless PERIMODE_BENCH_THREADS says otherwise.
 #include <benchmark/benchmark.h>
 #include <cblas.h>
 
@@ -30,50 +30,58 @@ struct Problem {
   perimode::Csr k;
   Eigen::VectorXd mass;
   std::vector<Index> node_of_dof;
+  Eigen::MatrixXd position;
 };
 
-/// The lattice of n x n particles whose outer three layers are fixed.
-Problem clamped_lattice(int n) {
+/// The square or cubic lattice with n particles along an edge whose outer three layers are fixed.
+Problem clamped_lattice(int dimension, int n) {
   const double dx = 1.0 / n, delta = horizon * dx;
   const double c = 9.0 / (M_PI * delta * delta * delta);
-  const int free = n - 2 * horizon;
+  const int free = n - 2 * horizon, depth = dimension == 3 ? free : 1, reach = dimension == 3 ? horizon : 0;
   perimode::BlockCsr k;
-  k.block = 2;
-  k.rows = free * free;
+  k.block = dimension;
+  k.rows = free * free * depth;
   k.row_start = {0};
-  for (int y = 0; y < free; ++y)
-    for (int x = 0; x < free; ++x) {
-      Eigen::Matrix2d diagonal = Eigen::Matrix2d::Zero();
-      std::size_t diagonal_at = 0;
-      for (int b = -horizon; b <= horizon; ++b)
-        for (int a = -horizon; a <= horizon; ++a) {
-          const int square = a * a + b * b;
-          if (square > horizon * horizon) continue;
-          Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
-          if (square == 0) {
-            diagonal_at = k.value.size();
-          } else {
-            const Eigen::Vector2d offset(a, b);
-            block = c * dx / (std::sqrt(square) * square) * offset * offset.transpose();
-            diagonal += block;
-            if (x + a < 0 || x + a >= free || y + b < 0 || y + b >= free) continue;
-          }
-          k.column.push_back((y + b) * free + x + a);
-          k.value.insert(k.value.end(), {-block(0, 0), -block(0, 1), -block(1, 0), -block(1, 1)});
-        }
-      for (int r = 0; r < 2; ++r)
-        for (int s = 0; s < 2; ++s) k.value[diagonal_at + 2 * r + s] = diagonal(r, s);
-      k.row_start.push_back(static_cast<perimode::Offset>(k.column.size()));
-    }
-  std::vector<Index> number(2 * k.rows);
+  Eigen::MatrixXd position(dimension, k.rows);
+  for (int z = 0; z < depth; ++z)
+    for (int y = 0; y < free; ++y)
+      for (int x = 0; x < free; ++x) {
+        const Eigen::Vector3d here(x, y, z);
+        position.col((z * free + y) * free + x) = dx * here.head(dimension);
+        Eigen::MatrixXd diagonal = Eigen::MatrixXd::Zero(dimension, dimension);
+        std::size_t diagonal_at = 0;
+        for (int e = -reach; e <= reach; ++e)
+          for (int b = -horizon; b <= horizon; ++b)
+            for (int a = -horizon; a <= horizon; ++a) {
+              const int square = a * a + b * b + e * e;
+              if (square > horizon * horizon) continue;
+              Eigen::MatrixXd block = Eigen::MatrixXd::Zero(dimension, dimension);
+              if (square == 0) {
+                diagonal_at = k.value.size();
+              } else {
+                const Eigen::VectorXd offset = Eigen::Vector3d(a, b, e).head(dimension);
+                block = c * dx / (std::sqrt(square) * square) * offset * offset.transpose();
+                diagonal += block;
+                if (x + a < 0 || x + a >= free || y + b < 0 || y + b >= free || z + e < 0 || z + e >= depth)
+                  continue;
+              }
+              k.column.push_back(((z + e) * free + y + b) * free + x + a);
+              for (int r = 0; r < dimension; ++r)
+                for (int s = 0; s < dimension; ++s) k.value.push_back(-block(r, s));
+            }
+        for (int r = 0; r < dimension; ++r)
+          for (int s = 0; s < dimension; ++s) k.value[diagonal_at + dimension * r + s] = diagonal(r, s);
+        k.row_start.push_back(static_cast<perimode::Offset>(k.column.size()));
+      }
+  std::vector<Index> number(dimension * k.rows);
   std::iota(number.begin(), number.end(), 0);
-  Problem out{perimode::scalar_csr(k, number), Eigen::VectorXd::Ones(2 * k.rows), number};
-  for (Index& node : out.node_of_dof) node /= 2;
+  Problem out{perimode::scalar_csr(k, number), Eigen::VectorXd::Ones(dimension * k.rows), number, position};
+  for (Index& node : out.node_of_dof) node /= dimension;
   return out;
 }
 
 const Problem& problem(int n) {
-  static const Problem small = clamped_lattice(100), large = clamped_lattice(200);
+  static const Problem small = clamped_lattice(2, 100), large = clamped_lattice(2, 200);
   return n == 100 ? small : large;
 }
 
@@ -105,9 +113,30 @@ double dgemm_rate() {
   return rate;
 }
 
+/// One order and what it makes of the factorisation: order 0 is METIS, 1 the dissection by planes. In 3D
+/// `n` counts the free particles along an edge.
 void order(benchmark::State& state) {
-  const Problem& p = problem(static_cast<int>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(perimode::fill_reducing_order(p.k, p.node_of_dof));
+  const bool planes = state.range(2) == 1;
+  const auto dimension = static_cast<int>(state.range(0)), n = static_cast<int>(state.range(1));
+  static int kept[2] = {0, 0};
+  static Problem p;
+  if (kept[0] != dimension || kept[1] != n) {
+    p = clamped_lattice(dimension, dimension == 3 ? n + 2 * horizon : n);
+    kept[0] = dimension;
+    kept[1] = n;
+  }
+  std::vector<Index> order;
+  for (auto _ : state)
+    order = planes ? perimode::dissection_order(p.k, p.node_of_dof, p.position)
+                   : perimode::fill_reducing_order(p.k, p.node_of_dof);
+  double begin = cpu_seconds();
+  perimode::CholeskyFactor factor = perimode::CholeskyFactor::with_order(p.k, std::move(order));
+  state.counters["analyse_s"] = cpu_seconds() - begin;
+  begin = cpu_seconds();
+  if (factor.factorize(p.k, 0.0, p.mass) != perimode::FactorStatus::done) state.SkipWithError("not definite");
+  state.counters["factor_s"] = cpu_seconds() - begin;
+  state.counters["nonzeros"] = static_cast<double>(factor.fill().nonzeros);
+  state.counters["flops"] = factor.fill().flops;
 }
 
 void factorise(benchmark::State& state) {
@@ -176,7 +205,11 @@ void twenty_modes(benchmark::State& state) {
 
 }  // namespace
 
-BENCHMARK(order)->Arg(200)->Unit(benchmark::kMillisecond);
+BENCHMARK(order)
+    ->ArgNames({"dimension", "n", "planes"})
+    ->ArgsProduct({{2}, {200}, {0, 1}})
+    ->ArgsProduct({{3}, {20, 30}, {0, 1}})
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(factorise)->Arg(100)->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(solve)->ArgsProduct({{200}, {1, 4, 16}})->Unit(benchmark::kMillisecond);
 BENCHMARK(twenty_modes)

@@ -15,6 +15,13 @@ namespace perimode {
 /// METIS nested dissection runs on the graph of the nodes. Cost O(nonzeros log rows).
 [[nodiscard]] std::vector<Index> fill_reducing_order(const Csr& pattern, std::span<const Index> node_of_dof);
 
+/// The same from the positions of the nodes, m (dimension x nodes; column node_of_dof[i] is that of dof i):
+/// nested dissection by planes across the longest side of each part, the separator taken from the graph, so
+/// that cracks, holes, clouds and periodic bodies are treated as what they are. Far cheaper than
+/// METIS; tests/bench/bench_solvers.cpp compares the two. Cost O(nonzeros + bonds log nodes).
+[[nodiscard]] std::vector<Index> dissection_order(const Csr& pattern, std::span<const Index> node_of_dof,
+                                                  const Eigen::MatrixXd& position);
+
 /// What a Cholesky factorisation would cost, from the pattern alone.
 struct FillEstimate {
   Offset nonzeros = 0;        ///< of L
