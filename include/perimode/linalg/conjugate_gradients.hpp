@@ -28,7 +28,7 @@ struct CgResult {
 };
 
 /// Preconditioned conjugate gradients for symmetric positive (semi-)definite A and a fixed symmetric positive
-/// definite preconditioner M^-1 ~ A^-1 (an empty apply: none), docs/theory/08_iterative.md. Where the
+/// definite preconditioner M^-1 ~ A^-1 (an empty apply: none), docs/theory. Where the
 /// residual of the recurrence meets the tolerance the true one is computed; if that does not, the iteration
 /// restarts from it, and gives up (`stagnation`) once a restart gains less than a factor of two. For a
 /// singular A, b has to be orthogonal to the null space; x then keeps the start's part in it up to round-off.
