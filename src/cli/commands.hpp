@@ -23,7 +23,9 @@ struct Arguments {
 /// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal. Bad input and a lacking
 /// environment are thrown as Error.
 int run_modal(const Arguments& arguments, Console& console);
+int run_static(const Arguments& arguments, Console& console);
 int run_check(const Arguments& arguments, Console& console);
 int run_new_modal(const Arguments& arguments, Console& console);
+int run_new_static(const Arguments& arguments, Console& console);
 
 }  // namespace perimode::cli

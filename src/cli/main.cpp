@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +13,7 @@
 #include <new>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
@@ -37,6 +39,7 @@ constexpr const char* examples = R"(Examples:
   perimode new modal plate.yaml                 write a commented case to start from
   perimode check plate.yaml                     read it, predict size, memory and solver
   perimode modal plate.yaml --threads 2         modes: table, modes.csv, modes.exo, summary.json
+  perimode static plate.yaml                    displacements under loads: fields.exo, reactions.csv
   perimode modal plate.yaml --set body.horizon.ratio=4 --output out/m4
 
 Exit codes: 0 done, 1 ran but did not reach its goal, 2 bad input, 3 environment, 130 interrupted.)";
@@ -70,7 +73,11 @@ std::string usage_error(const CLI::App& app, int argc, char** argv, std::string 
     }
     const bool known = std::any_of(subcommands.begin(), subcommands.end(),
                                    [&](const auto* s) { return s->get_name() == word; });
-    if (!known) what = fmt::format("expected the command modal, check or new, got '{}'", word);
+    if (!known) {
+      std::vector<std::string> names;
+      for (const auto* s : subcommands) names.push_back(s->get_name());
+      what = fmt::format("expected one of the commands {}, got '{}'", fmt::join(names, ", "), word);
+    }
     break;
   }
   return what + "; see perimode --help";
@@ -112,7 +119,7 @@ int main(int argc, char** argv) {
   perimode::cli::prepare_process(argv);
   keep_freed_memory();
   perimode::cli::watch_for_interrupts();
-  CLI::App app{"Perimode: vibration modes of bond-based peridynamic bodies", "perimode"};
+  CLI::App app{"Perimode: vibration modes and statics of bond-based peridynamic bodies", "perimode"};
   app.footer(examples);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -131,14 +138,24 @@ int main(int argc, char** argv) {
         ->take_all()
         ->allow_extra_args(false);
   };
+  const auto result = [&](CLI::App* sub) {
+    sub->add_option("--output", arguments.output, "result folder, instead of the case's output.directory");
+    sub->add_flag("--force", arguments.force, "replace an earlier result");
+  };
   CLI::App* modal = app.add_subcommand("modal", "compute vibration modes");
   common(modal);
-  modal->add_option("--output", arguments.output, "result folder, instead of the case's output.directory");
-  modal->add_flag("--force", arguments.force, "replace an earlier result");
+  result(modal);
   modal->add_flag("--matrices", arguments.matrices, "also write K.mtx and M.mtx (Matrix Market)");
   modal->footer(
       "Example: perimode modal plate.yaml --set analysis.modal.modes=40 --output out/plate --force");
   modal->callback([&] { command = [&](Console& c) { return run_modal(arguments, c); }; });
+
+  CLI::App* statics = app.add_subcommand("static", "compute displacements under loads");
+  common(statics);
+  result(statics);
+  statics->footer(
+      "Example: perimode static plate.yaml --set analysis.static.tolerance=1e-10 --output out/plate --force");
+  statics->callback([&] { command = [&](Console& c) { return run_static(arguments, c); }; });
 
   CLI::App* check = app.add_subcommand("check", "read a case and predict what it takes; runs nothing");
   common(check);
@@ -146,10 +163,16 @@ int main(int argc, char** argv) {
 
   CLI::App* fresh = app.add_subcommand("new", "write a commented case file");
   fresh->require_subcommand(1);
-  CLI::App* new_modal = fresh->add_subcommand("modal", "a template for modes");
-  new_modal->add_option("file", arguments.template_to, "where to write it (default: standard output)");
-  new_modal->add_flag("--force", arguments.force, "replace an existing file");
-  new_modal->callback([&] { command = [&](Console& c) { return run_new_modal(arguments, c); }; });
+  const auto fresh_case = [&](const char* name, const char* what, int (*run)(const Arguments&, Console&)) {
+    CLI::App* sub = fresh->add_subcommand(name, what);
+    sub->add_option("file", arguments.template_to, "where to write it (default: standard output)");
+    sub->add_flag("--force", arguments.force, "replace an existing file");
+    sub->callback([&command, &arguments, run] {
+      command = [&arguments, run](Console& c) { return run(arguments, c); };
+    });
+  };
+  fresh_case("modal", "a template for modes", perimode::cli::run_new_modal);
+  fresh_case("static", "a template for statics", perimode::cli::run_new_static);
 
   try {
     app.parse(argc, argv);

@@ -116,27 +116,6 @@ nlohmann::ordered_json certificate_json(const ModalResult& result) {
       {"seconds", c.seconds},   {"solves", c.solves}};
 }
 
-nlohmann::ordered_json table_json(const Table& table) {
-  auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : table.rows) {
-    nlohmann::ordered_json object;
-    for (std::size_t c = 0; c < table.columns.size(); ++c) {
-      std::visit(
-          [&](const auto& cell) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(cell)>, double>) {
-              object[table.columns[c]] =
-                  std::isfinite(cell) ? nlohmann::ordered_json(cell) : nlohmann::ordered_json();
-            } else {
-              object[table.columns[c]] = cell;
-            }
-          },
-          row[c]);
-    }
-    rows.push_back(std::move(object));
-  }
-  return rows;
-}
-
 template <int Dim>
 void write_modes_exodus(const std::filesystem::path& file, const std::string& title, const Body<Dim>& body,
                         const ModalResult& result) {

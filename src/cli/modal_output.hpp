@@ -29,9 +29,8 @@ using References = std::vector<ClosedFormMode>;
 [[nodiscard]] std::string modes_text(const ModalResult& result, const References& references,
                                      const std::vector<double>& total_mass);
 
-/// The `certificate` and `modes` parts of summary.json; NaN becomes null.
+/// The `certificate` part of summary.json.
 [[nodiscard]] nlohmann::ordered_json certificate_json(const ModalResult& result);
-[[nodiscard]] nlohmann::ordered_json table_json(const Table& table);
 
 /// modes.exo: one step per mode, its number the time, frequency_hz a global, displacement a nodal vector.
 template <int Dim>

@@ -5,13 +5,37 @@
 #include "machine.hpp"
 #include "perimode/io/case.hpp"
 #include "perimode/modal/plan.hpp"
+#include "static_output.hpp"
 
 namespace perimode::cli {
 
 namespace {
 
+/// A static analysis alone: no modes are predicted where none are asked for.
+template <int Dim>
+int check_static(const Case& input, Console& console) {
+  refuse_if_too_large(least_body_memory(input.model), "the body");
+  const Body<Dim> body = build_body<Dim>(input.model, console.sink());
+  console.stage("analysing", -1.0);
+  const StaticPlan plan = [&] {
+    try {
+      return plan_static(body, *input.statics);
+    } catch (const Error& error) {
+      throw at(error, input.static_where);
+    }
+  }();
+  console.clear_progress();
+  if (!input.modal)
+    fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
+  fmt::print("{}", static_plan_text(plan));
+  std::fflush(stdout);
+  refuse_if_too_large(plan.memory_bytes, "this static analysis");
+  return 0;
+}
+
 template <int Dim>
 int check(const Case& input, Console& console) {
+  if (input.statics && !input.modal) return check_static<Dim>(input, console);
   refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
@@ -44,7 +68,7 @@ int check(const Case& input, Console& console) {
   std::fflush(stdout);
   for (const auto& warning : plan.warnings) console.warning(warning);
   refuse_if_too_large(plan.memory_bytes, "these modes");
-  return 0;
+  return input.statics ? check_static<Dim>(input, console) : 0;
 }
 
 }  // namespace

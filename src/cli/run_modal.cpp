@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
-#include <fstream>
 
 #include "commands.hpp"
 #include "interrupt.hpp"
@@ -14,18 +12,12 @@
 #include "perimode/io/case.hpp"
 #include "perimode/io/matrix_market.hpp"
 #include "perimode/io/result_directory.hpp"
-#include "perimode/linalg/threads.hpp"
 #include "perimode/modal/plan.hpp"
+#include "summary.hpp"
 
 namespace perimode::cli {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Closed-form modes enough to stand beside every computed one.
 References references_of(const Case& input, const ModalOptions& options, const ModalResult& result,
@@ -113,15 +105,9 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   write_modes_exodus(folder.temporary() / "modes.exo", input.title, body, result);
   if (arguments.matrices) write_matrices(folder.temporary(), body, result.asymmetry);
 
-  nlohmann::ordered_json summary;
-  summary["analysis"] = "modal";
-  summary["title"] = input.title;
-  summary["particles"] = body.count();
-  summary["bonds"] = count_bonds(body.bonds, body.count());
-  summary["dofs"] = body.boundary.free;
+  nlohmann::ordered_json summary = begin_summary("modal", input.title, body);
   summary["nonzeros"] = result.nonzeros;
   summary["factor_nonzeros"] = result.factor_nonzeros;
-  summary["engine"] = "serial";
   summary["solver"] = result.solver;
   summary["status"] = status_text(result.status);
   summary["message"] = result.message;
@@ -132,27 +118,16 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   summary["mechanisms"] = result.mechanisms;
   summary["solves"] = result.solves;
   summary["certificate"] = certificate_json(result);
-  summary["timings_s"] = {{"body", seconds_body},
-                          {"assemble", result.seconds_assemble},
-                          {"analyse", result.seconds_analyse},
-                          {"factor", result.seconds_factor},
-                          {"iterate", result.seconds_iterate},
-                          {"certificate", result.certificate.seconds},
-                          {"write", seconds_since(writing)},
-                          {"total", seconds_since(start)}};
-  summary["peak_memory_mb"] = peak_memory() / 1e6;
-  summary["threads"] = threads();
-  summary["version"] = version();
+  add_run(summary, {{"body", seconds_body},
+                    {"assemble", result.seconds_assemble},
+                    {"analyse", result.seconds_analyse},
+                    {"factor", result.seconds_factor},
+                    {"iterate", result.seconds_iterate},
+                    {"certificate", result.certificate.seconds},
+                    {"write", seconds_since(writing)},
+                    {"total", seconds_since(start)}});
   summary["modes"] = table_json(table);
-  std::ofstream out(folder.temporary() / "summary.json");
-  out << summary.dump(1) << '\n';
-  out.close();
-  if (!out) {
-    throw Error(ErrorKind::environment,
-                Complaint{"room to write summary.json", "a failed write", "free some disk space", {}});
-  }
-  folder.commit();
-  set_unfinished_result({});
+  commit_summary(folder, summary);
   console.clear_progress();
 
   fmt::print("{}", modes_text(result, references, total_mass(body)));

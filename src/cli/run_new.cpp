@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
+#include <string_view>
 
 #include "commands.hpp"
 #include "perimode/core/error.hpp"
@@ -9,9 +10,11 @@
 
 namespace perimode::cli {
 
-int run_new_modal(const Arguments& arguments, Console& console) {
+namespace {
+
+int write_template(std::string_view text, const char* command, const Arguments& arguments, Console& console) {
   if (!arguments.template_to) {
-    fmt::print("{}", modal_template());
+    fmt::print("{}", text);
     return 0;
   }
   const auto& file = *arguments.template_to;
@@ -20,14 +23,24 @@ int run_new_modal(const Arguments& arguments, Console& console) {
         {"a file that does not exist yet", file.string(), "use --force to replace it, or another name", {}});
   }
   std::ofstream out(file);
-  out << modal_template();
+  out << text;
   out.close();
   if (!out) {
     throw Error(ErrorKind::environment,
                 Complaint{"a file that can be written", file.string(), "choose another folder", {}});
   }
-  console.info("wrote " + file.string() + "; run it with: perimode modal " + file.string());
+  console.info(fmt::format("wrote {0}; run it with: perimode {1} {0}", file.string(), command));
   return 0;
+}
+
+}  // namespace
+
+int run_new_modal(const Arguments& arguments, Console& console) {
+  return write_template(modal_template(), "modal", arguments, console);
+}
+
+int run_new_static(const Arguments& arguments, Console& console) {
+  return write_template(static_template(), "static", arguments, console);
 }
 
 }  // namespace perimode::cli

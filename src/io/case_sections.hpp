@@ -28,6 +28,13 @@ void read_body(const Cursor& cursor, const std::filesystem::path& directory, Mod
 void read_materials(const Cursor& material, const std::optional<Cursor>& overrides, Model& model);
 /// The `boundary` section of a model whose body has been read.
 void read_boundary(const Cursor& cursor, Model& model);
+/// The time function of a load: checked by name, its values are read where time passes.
+void check_time(const Cursor& cursor);
+/// A list of loads: {traction | body_force | force, at, time}.
+[[nodiscard]] std::vector<Load> read_loads(const Cursor& cursor, const BodyFacts& facts);
+/// The section analysis.static.
+[[nodiscard]] StaticOptions read_static(const Cursor& cursor, const BodyFacts& facts);
+/// The `analysis` section of a case whose model has been read.
 void read_analysis(const Cursor& cursor, Case& result);
 [[nodiscard]] OutputSpec read_output(const Cursor& cursor);
 

@@ -52,4 +52,53 @@ output:
 )";
 }
 
+std::string_view static_template() {
+  return R"(# A steel plate with a hole, held at its left end and pulled at its right end.
+# Run:    perimode static this_file.yaml
+# Check:  perimode check this_file.yaml      (reads everything, runs nothing)
+# All numbers are plain SI: m, kg, s, N, Pa. Every key is described in docs/case_reference.md.
+title: steel plate with a hole under tension
+
+body:
+  dimension: 2                  # 1 bar, 2 plate or slice, 3 solid
+  plane: stress                 # 2D: stress (Poisson's ratio 1/3) | strain (1/4); the theory fixes it
+  thickness: 0.005              # 2D, m   (in 1D: area, m2)
+  particles:
+    grid:                       # particles sit at the centres of square cells
+      lower: [0, 0]             # m
+      upper: [0.4, 0.2]         # the box holds a whole number of cells
+      spacing: 0.005            # m; finer: 0.0025
+      remove: [ { ball: { centre: [0.2, 0.1], radius: 0.03 } } ]
+    # file: cloud.csv           # instead of grid: columns x,y,volume[,block]
+  horizon: { ratio: 3 }         # in spacings | { length: 0.03 } in m | { neighbours: 30 } (clouds)
+  # precracks:                  # bonds that cross these segments are cut
+  #   - { from: [0.2, 0.0], to: [0.2, 0.05] }
+
+material:
+  youngs_modulus: 210.0e+9      # Pa
+  density: 7850                 # kg/m3
+  micromodulus: { kernel: constant }   # constant | conical | gaussian (with p) | inverse_distance
+  calibration: discrete         # continuum | discrete | discrete_cut
+  volume_correction: linear     # none | linear | exact (1D)
+
+boundary:
+  - { fix: [x, y], at: { face: x-, layers: 3 } }      # the outermost 3 layers at x-
+  # - { prescribe: { x: 1.0e-4 }, at: { face: x+, layers: 3 } }   # a given displacement, m
+  # - { wall: y-, type: mirror }  # a symmetry plane; see docs/case_reference.md for the others
+
+analysis:
+  static:
+    loads:                      # they act in full; several add up
+      - { traction: [100.0e+6, 0], at: { face: x+, layers: 3 } }    # Pa, on a face
+      # - { body_force: [0, -77.0e+3] }                             # N/m3, of the whole body or `at` a region
+      # - { force: [0, -500], at: { nearest: [0.4, 0.1] } }         # N in all, shared by volume
+    solver: auto                # auto | cholesky | multigrid | jacobi | lu
+    tolerance: 1.0e-8           # of the residual |f - K u| / |f|
+
+output:
+  directory: out/plate          # fields.exo (ParaView), reactions.csv and summary.json
+  fields: [displacement, strain, stress, energy]    # also: damage
+)";
+}
+
 }  // namespace perimode

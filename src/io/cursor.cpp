@@ -138,17 +138,17 @@ std::vector<Cursor> Cursor::entries(const char* example) const {
   return result;
 }
 
-Coordinates Cursor::point(int dimension) const {
+Coordinates Cursor::point(int dimension, const char* unit) const {
   const char* examples[] = {"[0.5]", "[0.5, 0.25]", "[0.5, 0.25, 0.1]"};
   const char* example = examples[dimension - 1];
   const std::string expected =
-      fmt::format("a list of {} number{} in m", dimension, dimension == 1 ? "" : "s");
+      fmt::format("a list of {} number{} in {}", dimension, dimension == 1 ? "" : "s", unit);
   if (node_->kind != CaseNode::Kind::sequence ||
       node_->children.size() != static_cast<std::size_t>(dimension)) {
     complain(expected, fmt::format("the body has dimension {}: for example {}", dimension, example));
   }
   Coordinates result;
-  for (const Cursor& item : items(example)) result.push_back(item.number({"m", "0.5", Sign::any}));
+  for (const Cursor& item : items(example)) result.push_back(item.number({unit, "0.5", Sign::any}));
   return result;
 }
 

@@ -40,8 +40,8 @@ class Cursor {
   [[nodiscard]] std::vector<Cursor> items(const char* example) const;
   /// The values of a map whose keys are free names (node().key).
   [[nodiscard]] std::vector<Cursor> entries(const char* example) const;
-  /// A list of `dimension` finite numbers, m.
-  [[nodiscard]] Coordinates point(int dimension) const;
+  /// A list of `dimension` finite numbers, m or another unit.
+  [[nodiscard]] Coordinates point(int dimension, const char* unit = "m") const;
 
   /// One of some words.
   template <class T>

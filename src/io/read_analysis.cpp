@@ -61,7 +61,11 @@ void read_analysis(const Cursor& cursor, Case& result) {
     result.modal = read_modal(*modal);
     result.modal_where = modal->where();
   }
-  for (const char* name : {"static", "transient", "quasistatic", "dispersion"}) {
+  if (const auto statics = analysis.find("static")) {
+    result.statics = read_static(*statics, facts_of(result.model));
+    result.static_where = statics->where();
+  }
+  for (const char* name : {"transient", "quasistatic", "dispersion"}) {
     const auto other = analysis.find(name);
     if (other && other->node().kind != CaseNode::Kind::map && other->node().kind != CaseNode::Kind::null) {
       other->complain("a map", "each analysis has its own keys");

@@ -9,15 +9,6 @@ namespace perimode::case_file {
 
 namespace {
 
-/// The time function of a load: checked by name, its values are read where time passes.
-void check_time(const Cursor& cursor) {
-  if (cursor.node().kind == CaseNode::Kind::scalar && cursor.node().text == "constant") return;
-  const Section time(cursor,
-                     {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
-  (void)time.exactly_one(
-      {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
-}
-
 Fix read_fix(const Section& section, const BodyFacts& facts) {
   section.refuse("time", "no time function with fix", "fix is u = 0 at all times");
   const Cursor list = *section.find("fix");
@@ -86,6 +77,14 @@ Wall read_wall(const Section& section, const Model& model, std::map<std::pair<in
 }
 
 }  // namespace
+
+void check_time(const Cursor& cursor) {
+  if (cursor.node().kind == CaseNode::Kind::scalar && cursor.node().text == "constant") return;
+  const Section time(cursor,
+                     {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
+  (void)time.exactly_one(
+      {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
+}
 
 void read_boundary(const Cursor& cursor, Model& model) {
   const BodyFacts facts = facts_of(model);

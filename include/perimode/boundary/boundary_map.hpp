@@ -26,6 +26,24 @@ struct BoundaryMap {
   [[nodiscard]] std::vector<double> expand(const double* q) const;
 };
 
+/// Displacement of a bond partner, particle or ghost, for displacements `u` of all particle dofs; with
+/// `given` false, ghosts follow by the linear part of the map alone.
+template <int Dim>
+[[nodiscard]] inline Point<Dim> partner_displacement(const BoundaryMap<Dim>& map, const double* u,
+                                                     Index partner, Index particles, bool given = true) {
+  Point<Dim> result;
+  for (int a = 0; a < Dim; ++a) {
+    if (partner < particles) {
+      result[a] = u[static_cast<std::size_t>(partner) * Dim + a];
+      continue;
+    }
+    const auto g = static_cast<std::size_t>(partner - particles);
+    result[a] = map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a] +
+                (given ? map.value[g * Dim + a] : 0.0);
+  }
+  return result;
+}
+
 /// The same map as sparse matrices: T (all dofs x free), R (free x all dofs, picks the equations), g.
 struct BoundaryMatrices {
   Csr t;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -25,12 +26,13 @@ struct TotalForce {
 
 struct Load {
   std::variant<Traction, BodyForce, TotalForce> what;
-  Region at;
+  std::optional<Region> at = {};  ///< empty: the whole body; a traction needs its face
   Where where = {};
 };
 
 /// Forces of all loads on all particle dofs, N (point-major). Throws invalid_input: a region that holds no
-/// particle, a traction on a region that is no face, a wrong number of components. Cost O(particles * loads).
+/// particle, a traction on a region that is no face or has more layers than the body, a wrong number of
+/// components. Cost O(particles * loads).
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd load_vector(const Particles<Dim>& particles, const std::vector<Load>& loads);
 

@@ -8,6 +8,7 @@
 
 #include "perimode/assembly/model.hpp"
 #include "perimode/modal/options.hpp"
+#include "perimode/statics/static.hpp"
 
 namespace perimode {
 
@@ -23,6 +24,8 @@ struct Case {
   Model model;
   std::optional<ModalOptions> modal;
   Where modal_where = {};
+  std::optional<StaticOptions> statics;
+  Where static_where = {};
   OutputSpec output;
   std::filesystem::path file;
 };

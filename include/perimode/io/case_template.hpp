@@ -8,4 +8,7 @@ namespace perimode {
 /// A complete, commented case of a modal analysis, as `perimode new modal` prints it.
 [[nodiscard]] std::string_view modal_template();
 
+/// A complete, commented case of a static analysis, as `perimode new static` prints it.
+[[nodiscard]] std::string_view static_template();
+
 }  // namespace perimode

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "perimode/linalg/operator.hpp"
+#include "perimode/statics/static.hpp"
+
+namespace perimode {
+
+/// R K T q = rhs over the free dofs, and what is known of K before it is solved.
+struct StaticProblem {
+  LinearOperator stiffness;  ///< R K T
+  double bound = 0.0;        ///< of the magnitude of its eigenvalues, N/m
+  double asymmetry = 0.0;
+  Eigen::VectorXd load;   ///< f of all particle dofs, N
+  Eigen::VectorXd rhs;    ///< R f - R K g, N
+  double scale = 0.0;     ///< max(|R f|, |R K g|), N
+  Eigen::VectorXd mass;   ///< of the free dofs, kg
+  Eigen::MatrixXd rigid;  ///< rigid motions left free, M-orthonormal
+
+  [[nodiscard]] bool symmetric() const { return asymmetry <= 1e-12; }
+};
+
+/// Throws invalid_input: loads that do not fit the body, nothing that loads or moves it, loads that are not
+/// in equilibrium where nothing holds it.
+template <int Dim>
+[[nodiscard]] StaticProblem pose_problem(const Body<Dim>& body, const StaticOptions& options);
+
+/// Which solver, and why. `solver` is never automatic.
+struct SolverChoice {
+  StaticSolver solver = StaticSolver::cholesky;
+  std::string name;
+  std::string reason;
+};
+
+/// Throws invalid_input where the solver asked for does not fit the body.
+template <int Dim>
+[[nodiscard]] SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
+                                         const StaticOptions& options);
+
+/// Numbers of the dofs a factor is made of: all free ones, but as many held back as there are rigid motions,
+/// so that what is left is positive definite. -1 for the others. Loads in equilibrium exert nothing on
+/// the dofs held back.
+struct FactorDofs {
+  std::vector<Index> number;    ///< per particle dof
+  std::vector<Index> free;      ///< per number: that of the free dof
+  std::vector<Index> particle;  ///< per number
+};
+template <int Dim>
+[[nodiscard]] FactorDofs factor_dofs(const Body<Dim>& body, const Eigen::MatrixXd& rigid);
+
+}  // namespace perimode

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/statics/static_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/operators.hpp"
+#include "statics/problem.hpp"
+
+namespace perimode {
+
+namespace {
+
+/// At or below so many dofs a factor is made without asking further, by dimension.
+constexpr double few_dofs[] = {1e9, 20000.0, 3000.0};
+/// Up to here a factor of a plane cloud fills modestly.
+constexpr double plane_cloud_dofs = 200000.0;
+/// Products with K that a V-cycle solution takes, all levels together: about 10 iterations of 7.
+constexpr double multigrid_products = 70.0;
+
+/// Length of the body in horizons, its largest extent.
+template <int Dim>
+double horizons_long(const Body<Dim>& body) {
+  Point<Dim> low = body.particles.position.front();
+  Point<Dim> high = low;
+  for (const auto& x : body.particles.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  double horizon = 0.0;
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
+    horizon = grid->family.horizon;
+  } else {
+    for (double h : std::get<CloudBonds<Dim>>(body.bonds).horizon) horizon = std::max(horizon, h);
+  }
+  return horizon > 0.0 ? (high - low).maxCoeff() / horizon : 0.0;
+}
+
+/// Iterations of block-Jacobi conjugate gradients: (1/2) sqrt(kappa) ln(2 / tolerance), kappa the square of
+/// twice the length in horizons (a body held at one end).
+double jacobi_iterations(double horizons, double tolerance) {
+  return 0.5 * 2.0 * std::max(1.0, horizons) * std::log(2.0 / tolerance);
+}
+
+const char* name_of(StaticSolver solver) {
+  switch (solver) {
+    case StaticSolver::multigrid:
+      return "cg multigrid";
+    case StaticSolver::jacobi:
+      return "cg block jacobi";
+    case StaticSolver::lu:
+      return "lu";
+    case StaticSolver::automatic:
+    case StaticSolver::cholesky:
+      break;
+  }
+  return "cholesky";
+}
+
+template <int Dim>
+std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, const StaticProblem& problem,
+                                               double tolerance) {
+  const double dofs = body.boundary.free;
+  const bool grid = body.particles.grid.has_value();
+  if (Dim == 1) return {StaticSolver::cholesky, "the factor of a bar is a narrow band"};
+  if (dofs <= few_dofs[Dim - 1])
+    return {StaticSolver::cholesky, fmt::format("{} dofs are few: a factor", body.boundary.free)};
+  if (!grid && Dim == 2 && dofs <= plane_cloud_dofs)
+    return {StaticSolver::cholesky, "the factor of a plane cloud of this size fills modestly"};
+  const double products = jacobi_iterations(horizons_long(body), tolerance);
+  const std::string counted = fmt::format("block Jacobi would take about {:.0f} products with K", products);
+  if (problem.rigid.cols() > 0) return {StaticSolver::jacobi, "rigid motions are projected out; " + counted};
+  if (!grid) return {StaticSolver::jacobi, "a cloud has no coarser grids; " + counted};
+  if (products > multigrid_products)
+    return {StaticSolver::multigrid, fmt::format("{}, a V-cycle about {:.0f}", counted, multigrid_products)};
+  return {StaticSolver::jacobi, counted};
+}
+
+template <int Dim>
+double body_memory(const Body<Dim>& body) {
+  const double n = body.count();
+  double bytes = n * (8.0 * Dim + 8.0 + 4.0 + 4.0 + 12.0 * Dim) +
+                 8.0 * static_cast<double>(body.constants.factor.size());
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
+    bytes +=
+        4.0 * n + 4.0 * static_cast<double>(grid->occupant.size()) +
+        8.0 * static_cast<double>(grid->alive.size()) +
+        static_cast<double>(grid->ghosts.size()) * static_cast<double>(sizeof(Ghost<Dim>) + 4 + 16 * Dim);
+  } else {
+    const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
+    bytes += static_cast<double>(cloud.neighbour.size()) * (4.0 + 8.0 * (Dim + 3));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+template <int Dim>
+SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
+                           const StaticOptions& options) {
+  if (body.boundary.free == 0) return {StaticSolver::cholesky, "none", "every component is given"};
+  const bool asked = options.solver != StaticSolver::automatic;
+  if (!problem.symmetric()) {
+    if (asked && options.solver != StaticSolver::lu) {
+      invalid_input({"solver auto or lu where walls make the equations unsymmetric",
+                     name_of(options.solver),
+                     "leave analysis.static.solver out, or use mirror, antimirror or zero_layer walls",
+                     {}});
+    }
+    return {StaticSolver::lu, name_of(StaticSolver::lu),
+            fmt::format("walls make the equations unsymmetric, by {:.1e}", problem.asymmetry)};
+  }
+  if (!asked) {
+    auto [solver, reason] = automatic(body, problem, options.tolerance);
+    return {solver, name_of(solver), std::move(reason)};
+  }
+  if (problem.rigid.cols() > 0 &&
+      (options.solver == StaticSolver::multigrid || options.solver == StaticSolver::lu)) {
+    invalid_input({"solver auto, cholesky or jacobi for a body that is free to move",
+                   name_of(options.solver),
+                   "leave analysis.static.solver out, or fix the body",
+                   {}});
+  }
+  if (options.solver == StaticSolver::multigrid && !body.particles.grid) {
+    invalid_input(
+        {"solver auto, cholesky, jacobi or lu for a cloud", "multigrid", "multigrid needs a grid", {}});
+  }
+  return {options.solver, name_of(options.solver), "asked for"};
+}
+
+template <int Dim>
+StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
+  StaticPlan plan;
+  const StaticProblem problem = pose_problem(body, options);
+  SolverChoice choice = choose_solver(body, problem, options);
+  plan.solver = choice.solver;
+  plan.name = std::move(choice.name);
+  plan.reason = std::move(choice.reason);
+  plan.particles = body.count();
+  plan.ghosts = ghost_count(body.bonds);
+  plan.bonds = count_bonds(body.bonds, body.count());
+  plan.dofs = body.boundary.free;
+  plan.asymmetry = problem.asymmetry;
+  plan.rigid = static_cast<Index>(problem.rigid.cols());
+
+  const double dofs = plan.dofs;
+  double solving = 0.0;
+  if (plan.dofs > 0 && (plan.solver == StaticSolver::cholesky || plan.solver == StaticSolver::lu)) {
+    const FactorDofs factor = factor_dofs(body, problem.rigid);
+    BlockCsr blocks = assemble_stiffness(body);
+    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);
+    const Csr k = scalar_csr(blocks, factor.number);
+    blocks = {};
+    plan.fill = predict_fill(k, factor.particle);
+    const double csr_bytes = 12.0 * static_cast<double>(k.nonzeros()) + 8.0 * dofs;
+    // UMFPACK keeps L and U and a working copy; its column order fills more than a symmetric one.
+    const double factored =
+        plan.solver == StaticSolver::lu ? 4.0 * plan.fill.factor_bytes : plan.fill.peak_bytes;
+    solving = csr_bytes + std::max(block_bytes, factored);
+  } else if (plan.dofs > 0) {
+    constexpr double cg_vectors = 8.0;
+    solving = operator_bytes(body) + 8.0 * dofs * cg_vectors + 8.0 * Dim * Dim * plan.particles;
+  }
+  constexpr double program_bytes = 60e6;  // code, libraries and their work space
+  constexpr double vectors = 10.0;        // loads, displacements, forces, rigid motions
+  plan.memory_bytes = body_memory(body) + solving + 8.0 * Dim * vectors * plan.particles + program_bytes;
+  return plan;
+}
+
+double least_body_memory(const Model& model) {
+  const BodySize size = estimate_size(model);
+  // Positions, volumes, maps, the alive bits, and some ten vectors.
+  return size.particles * (28.0 + 28.0 * model.dimension + size.family / 8.0 + 80.0 * model.dimension);
+}
+
+#define PERIMODE_STATIC_PLAN(D)                                                                       \
+  template SolverChoice choose_solver<D>(const Body<D>&, const StaticProblem&, const StaticOptions&); \
+  template StaticPlan plan_static<D>(const Body<D>&, const StaticOptions&)
+PERIMODE_STATIC_PLAN(1);
+PERIMODE_STATIC_PLAN(2);
+PERIMODE_STATIC_PLAN(3);
+#undef PERIMODE_STATIC_PLAN
+
+}  // namespace perimode
