@@ -54,7 +54,8 @@ std::vector<bool> mirrored_ghosts(const Body<Dim>& body) {
       if (a == 0) sign = c;
       if (c != sign || (c != 1.0 && c != -1.0)) mirrored[g] = false;
     }
-    if (body.boundary.image[g] != grid->ghosts[g].image) mirrored[g] = false;
+    // Surface nodes: the ghosts of one face follow one particle and have no pairs.
+    if (body.boundary.image[g] != grid->ghosts[g].image) return std::vector<bool>(mirrored.size(), false);
   }
   return mirrored;
 }

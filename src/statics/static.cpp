@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "perimode/assembly/assemble.hpp"
-#include "perimode/assembly/multigrid.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/linalg/conjugate_gradients.hpp"
 #include "perimode/linalg/factor.hpp"
@@ -81,14 +80,10 @@ Solution solve_lu(const Body<Dim>& body, const StaticProblem& problem, StaticRes
 }
 
 template <int Dim>
-Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, const SolverChoice& choice,
-                           double tolerance, StaticResult& result, Clock::time_point start,
-                           const Sink& sink) {
+Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, double tolerance,
+                           StaticResult& result, Clock::time_point start, const Sink& sink) {
   sink.report("preconditioner");
-  const LinearOperator preconditioner =
-      choice.solver == StaticSolver::multigrid
-          ? multigrid(body, problem.stiffness).preconditioner
-          : block_jacobi(diagonal_blocks(body), Dim, body.boundary.free_number);
+  const LinearOperator preconditioner = block_jacobi(diagonal_blocks(body), Dim, body.boundary.free_number);
   result.seconds_setup = seconds_since(start);
   sink.report("iterating");
   CgOptions options;
@@ -141,7 +136,7 @@ StaticResult solve_static(const Body<Dim>& body, const std::vector<BoundaryCondi
   } else if (choice.solver == StaticSolver::lu) {
     solution = solve_lu(body, problem, result, start, sink);
   } else {
-    solution = solve_iteratively(body, problem, choice, options.tolerance, result, start, sink);
+    solution = solve_iteratively(body, problem, options.tolerance, result, start, sink);
   }
   if (result.rigid_modes > 0) {
     const Eigen::VectorXd share = problem.rigid.transpose() * problem.mass.cwiseProduct(solution.q);

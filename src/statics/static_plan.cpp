@@ -18,9 +18,6 @@ namespace {
 constexpr double few_dofs[] = {1e9, 20000.0, 3000.0};
 /// Up to here a factor of a plane cloud fills modestly.
 constexpr double plane_cloud_dofs = 200000.0;
-/// Products with K that a V-cycle solution takes, all levels together: about 10 iterations of 7.
-constexpr double multigrid_products = 70.0;
-
 /// Length of the body in horizons, its largest extent.
 template <int Dim>
 double horizons_long(const Body<Dim>& body) {
@@ -74,8 +71,6 @@ std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, const Stat
   const std::string counted = fmt::format("block Jacobi would take about {:.0f} products with K", products);
   if (problem.rigid.cols() > 0) return {StaticSolver::jacobi, "rigid motions are projected out; " + counted};
   if (!grid) return {StaticSolver::jacobi, "a cloud has no coarser grids; " + counted};
-  if (products > multigrid_products)
-    return {StaticSolver::multigrid, fmt::format("{}, a V-cycle about {:.0f}", counted, multigrid_products)};
   return {StaticSolver::jacobi, counted};
 }
 
@@ -124,9 +119,8 @@ SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
                    "leave analysis.static.solver out, or fix the body",
                    {}});
   }
-  if (options.solver == StaticSolver::multigrid && !body.particles.grid) {
-    invalid_input(
-        {"solver auto, cholesky, jacobi or lu for a cloud", "multigrid", "multigrid needs a grid", {}});
+  if (options.solver == StaticSolver::multigrid) {
+    invalid_input({"solver auto, cholesky, jacobi or lu", "multigrid", "it is not in this version", {}});
   }
   return {options.solver, name_of(options.solver), "asked for"};
 }
