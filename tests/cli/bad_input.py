@@ -272,7 +272,7 @@ class BadArguments(ProgramTest):
             (["modal", "case.yaml", "--threads", "100000"], "threads"),
             (["modal", "case.yaml", "--output"], "output"),
             (["new"], ""),
-            (["new", "static"], ""),
+            (["new", "dynamic"], ""),
             (["-x"], "-x"),
         ]:
             with self.subTest(" ".join(arguments)):
