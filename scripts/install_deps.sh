@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Perimode needs and that are missing; silent when none is.
-#   scripts/install_deps.sh [--dev]      --dev adds what scripts/lint.sh needs
+#   scripts/install_deps.sh [--dev | --fuzz]      --dev adds what scripts/lint.sh needs, --fuzz what scripts/fuzz.sh needs
 # As root it installs; otherwise it prints the line to run and exits with 3.
 set -euo pipefail
 
@@ -16,7 +16,8 @@ packages=(
 case "${1:-}" in
   "") ;;
   --dev) packages+=(clang-format-16 clang-tidy-16) ;;
-  *) echo "usage: $0 [--dev]" >&2; exit 2 ;;
+  --fuzz) packages+=(clang-16 libclang-rt-16-dev llvm-16) ;;
+  *) echo "usage: $0 [--dev | --fuzz]" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

@@ -166,7 +166,11 @@ CloudData read_cloud(const std::filesystem::path& file, int dimension) {
   }
   std::ostringstream content;
   content << stream.rdbuf();
-  return CloudReader(file, dimension).read(std::move(content).str());
+  return read_cloud_text(std::move(content).str(), file, dimension);
+}
+
+CloudData read_cloud_text(std::string_view text, const std::filesystem::path& file, int dimension) {
+  return CloudReader(file, dimension).read(text);
 }
 
 }  // namespace perimode

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
+#include <map>
 #include <sstream>
 
 namespace perimode::case_file {
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int deepest = 64;  ///< levels of nesting; deeper is an anchor in itself
 constexpr std::size_t most_nodes = 200000;
-constexpr std::uintmax_t most_bytes = 64U << 20U;
+constexpr std::size_t most_bytes = 4U << 20U;
 
 Where place(const YAML::Mark& mark, const Where& base) {
   if (base.line == 0 || mark.is_null()) return {base.file, 0, 0};
@@ -75,15 +75,16 @@ class Converter {
 
  private:
   void convert_map(const YAML::Node& yaml, int depth, CaseNode& node) {
+    std::map<std::string, Where> seen;
     for (const auto& pair : yaml) {
       const CaseNode key = convert(pair.first, depth + 1);
       if (key.kind != CaseNode::Kind::scalar) {
         invalid_input({"a key (a word)", describe(key), "write `key: value`", key.where});
       }
-      if (const CaseNode* earlier = node.find(key.text)) {
-        const std::string first = earlier->key_where.line > 0
-                                      ? fmt::format(" (first in line {})", earlier->key_where.line)
-                                      : std::string();
+      const auto [earlier, fresh] = seen.emplace(key.text, key.where);
+      if (!fresh) {
+        const int line = earlier->second.line;
+        const std::string first = line > 0 ? fmt::format(" (first in line {})", line) : std::string();
         invalid_input(
             {"every key once", fmt::format("'{}' again{}", key.text, first), "keep one of them", key.where});
       }
@@ -99,32 +100,6 @@ class Converter {
   Where base_;
   std::size_t nodes_ = 0;
 };
-
-std::string read_text(const std::filesystem::path& file) {
-  const Where where{file.string()};
-  std::error_code code;
-  const auto status = std::filesystem::status(file, code);
-  if (!std::filesystem::exists(status)) {
-    invalid_input({"a case file", "no such file", "check the path", where});
-  }
-  if (std::filesystem::is_directory(status)) {
-    invalid_input({"a case file", "a directory", "name the .yaml or .json file in it", where});
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    invalid_input({"a readable case file", "one that cannot be opened", "check its permissions", where});
-  }
-  const auto bytes = std::filesystem::file_size(file, code);
-  if (!code && bytes > most_bytes) {
-    invalid_input({"a case file of at most 64 MB", fmt::format("{} bytes", bytes),
-                   "particles belong into a CSV file", where});
-  }
-  std::ostringstream content;
-  content << stream.rdbuf();
-  std::string text = std::move(content).str();
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
-}
 
 /// Byte number of the first byte that text in UTF-8 cannot hold, or npos.
 std::size_t first_bad_byte(const std::string& text) {
@@ -226,9 +201,33 @@ CaseNode parse_case_text(const std::string& text, const Where& where) {
   }
 }
 
-CaseNode load_case_tree(const std::filesystem::path& file) {
+std::string read_case_bytes(const std::filesystem::path& file) {
+  const Where where{file.string()};
+  std::error_code code;
+  const auto status = std::filesystem::status(file, code);
+  if (!std::filesystem::exists(status)) {
+    invalid_input({"a case file", "no such file", "check the path", where});
+  }
+  if (std::filesystem::is_directory(status)) {
+    invalid_input({"a case file", "a directory", "name the .yaml or .json file in it", where});
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    invalid_input({"a readable case file", "one that cannot be opened", "check its permissions", where});
+  }
+  std::string text(most_bytes + 1, '\0');  // whatever the file says of its size: it may be a device or a pipe
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > most_bytes) {
+    invalid_input({"a case file of at most 4 MB", "more", "particles belong into a CSV file", where});
+  }
+  return text;
+}
+
+CaseNode parse_case_tree(std::string_view text, const std::filesystem::path& file) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   const Where start{file.string(), 1, 1};
-  CaseNode root = parse_case_text(read_text(file), start);
+  CaseNode root = parse_case_text(std::string(text), start);
   if (root.kind == CaseNode::Kind::null) {
     invalid_input({"a case", "an empty file", "start from the text that `perimode new modal` prints", start});
   }

@@ -25,9 +25,12 @@ struct CaseNode {
   [[nodiscard]] const CaseNode* find(std::string_view name) const;
 };
 
-/// Reads YAML (JSON is a part of it). Throws invalid_input: unreadable or no file, no text, syntax
-/// errors, several documents, duplicate or non-text keys, anchors that contain themselves.
-[[nodiscard]] CaseNode load_case_tree(const std::filesystem::path& file);
+/// The bytes of a case file. Throws invalid_input: no file, an unreadable one, more than 4 MB.
+[[nodiscard]] std::string read_case_bytes(const std::filesystem::path& file);
+
+/// Reads a whole case in YAML (JSON is a part of it). Throws invalid_input: no text, syntax errors, several
+/// documents, duplicate or non-text keys, anchors that contain themselves. Cost O(bytes log keys).
+[[nodiscard]] CaseNode parse_case_tree(std::string_view text, const std::filesystem::path& file);
 
 /// The value of YAML text; every place of it is `where` where that has no line.
 [[nodiscard]] CaseNode parse_case_text(const std::string& text, const Where& where);

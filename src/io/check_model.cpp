@@ -17,7 +17,7 @@ namespace {
 class BlockNames {
  public:
   explicit BlockNames(const Model& model) : model_(model) {
-    for (const BlockSpec& block : model.blocks) names_.push_back(block.name);
+    for (const BlockSpec& block : model.blocks) add(block.name);
   }
 
   void require(const std::string& name, const Where& where) {
@@ -26,7 +26,7 @@ class BlockNames {
       const CloudData data = read_cloud(cloud->file, model_.dimension);
       const std::set<std::string> named(data.block.begin(), data.block.end());
       for (const std::string& block : named) {
-        if (!block.empty()) names_.push_back(block);
+        if (!block.empty()) add(block);
       }
       file_read_ = true;
       if (known(name)) return;
@@ -35,19 +35,26 @@ class BlockNames {
     if (!names_.empty()) {
       remedy = fmt::format("the nearest is {}", nearest_word(name, {names_.begin(), names_.end()}));
     }
-    invalid_input(
-        {fmt::format("the name of a block ({})",
-                     names_.empty() ? "none is defined" : fmt::format("{}", fmt::join(names_, ", "))),
-         fmt::format("'{}'", name), remedy, where});
+    invalid_input({fmt::format("the name of a block ({})", names_.empty() ? "none is defined" : some_names()),
+                   fmt::format("'{}'", name), remedy, where});
   }
 
  private:
-  [[nodiscard]] bool known(const std::string& name) const {
-    return std::find(names_.begin(), names_.end(), name) != names_.end();
+  void add(const std::string& name) {
+    if (known_.insert(name).second) names_.push_back(name);
+  }
+  [[nodiscard]] bool known(const std::string& name) const { return known_.contains(name); }
+
+  [[nodiscard]] std::string some_names() const {
+    constexpr std::size_t most = 12;
+    const std::string first =
+        fmt::format("{}", fmt::join(names_.begin(), names_.begin() + std::min(names_.size(), most), ", "));
+    return names_.size() <= most ? first : fmt::format("{}, ... ({} in all)", first, names_.size());
   }
 
   const Model& model_;
-  std::vector<std::string> names_;
+  std::vector<std::string> names_;  // as they come
+  std::set<std::string> known_;     // the same
   bool file_read_ = false;
 };
 

@@ -5,9 +5,14 @@
 namespace perimode {
 
 Case read_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  return read_case_text(case_file::read_case_bytes(file), file, overrides);
+}
+
+Case read_case_text(std::string_view text, const std::filesystem::path& file,
+                    const std::vector<std::string>& overrides) {
   using namespace case_file;
-  CaseNode tree = load_case_tree(file);
-  for (const std::string& text : overrides) apply_override(tree, text);
+  CaseNode tree = parse_case_tree(text, file);
+  for (const std::string& key_value : overrides) apply_override(tree, key_value);
 
   const Section root(Cursor(tree, ""), {"title", "body", "material", "materials", "boundary", "analysis",
                                         "output", "kinematics"});

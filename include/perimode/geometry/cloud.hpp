@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "perimode/geometry/region.hpp"
@@ -25,5 +26,9 @@ struct CloudData {
 /// dimension), wrong number of fields, what is no finite number, volume <= 0, two particles at
 /// exactly the same point, no particle. Cost O(n log n).
 [[nodiscard]] CloudData read_cloud(const std::filesystem::path& file, int dimension);
+
+/// The same of text at hand; errors name it `file`.
+[[nodiscard]] CloudData read_cloud_text(std::string_view text, const std::filesystem::path& file,
+                                        int dimension);
 
 }  // namespace perimode

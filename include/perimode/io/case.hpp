@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "perimode/assembly/model.hpp"
@@ -36,5 +37,9 @@ struct Case {
 /// documented: unknown, duplicate or missing keys, wrong types, values out of range.
 [[nodiscard]] Case read_case(const std::filesystem::path& file,
                              const std::vector<std::string>& overrides = {});
+
+/// The same of text at hand: errors name it `file`, and its relative paths start at the folder of `file`.
+[[nodiscard]] Case read_case_text(std::string_view text, const std::filesystem::path& file,
+                                  const std::vector<std::string>& overrides = {});
 
 }  // namespace perimode
