@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/fields.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "statics/problem.hpp"
 
@@ -36,10 +37,10 @@ double horizons_long(const Body<Dim>& body) {
   return horizon > 0.0 ? (high - low).maxCoeff() / horizon : 0.0;
 }
 
-/// Iterations of block-Jacobi conjugate gradients: (1/2) sqrt(kappa) ln(2 / tolerance), kappa the square of
-/// twice the length in horizons (a body held at one end).
+/// Iterations of block-Jacobi conjugate gradients, as counted for squares and cubes held at one face:
+/// 0.7 ln(2 / tolerance) times the length in horizons, the square root of the condition number.
 double jacobi_iterations(double horizons, double tolerance) {
-  return 0.5 * 2.0 * std::max(1.0, horizons) * std::log(2.0 / tolerance);
+  return 0.7 * std::max(1.0, horizons) * std::log(2.0 / tolerance);
 }
 
 const char* name_of(StaticSolver solver) {
@@ -86,7 +87,8 @@ double body_memory(const Body<Dim>& body) {
         static_cast<double>(grid->ghosts.size()) * static_cast<double>(sizeof(Ghost<Dim>) + 4 + 16 * Dim);
   } else {
     const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
-    bytes += static_cast<double>(cloud.neighbour.size()) * (4.0 + 8.0 * (Dim + 3));
+    constexpr double search = 20.0;  // per bond end, while neighbours are searched
+    bytes += static_cast<double>(cloud.neighbour.size()) * (4.0 + 8.0 * (Dim + 3) + search);
   }
   return bytes;
 }
@@ -140,27 +142,29 @@ StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
   plan.asymmetry = problem.asymmetry;
   plan.rigid = static_cast<Index>(problem.rigid.cols());
 
-  const double dofs = plan.dofs;
+  const double vector = 8.0 * Dim * plan.particles;
+  constexpr double rigid_motions = tensor_components<Dim>;
+  double held = 3.0 + 2.0 * rigid_motions;  // vectors while rigid motions are looked for
   double solving = 0.0;
   if (plan.dofs > 0 && (plan.solver == StaticSolver::cholesky || plan.solver == StaticSolver::lu)) {
     const FactorDofs factor = factor_dofs(body, problem.rigid);
     BlockCsr blocks = assemble_stiffness(body);
-    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);
+    // The last 8: the graph that is ordered.
+    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim + 8.0);
     const Csr k = scalar_csr(blocks, factor.number);
     blocks = {};
     plan.fill = predict_fill(k, factor.particle);
-    const double csr_bytes = 12.0 * static_cast<double>(k.nonzeros()) + 8.0 * dofs;
-    // UMFPACK keeps L and U and a working copy; its column order fills more than a symmetric one.
+    // UMFPACK keeps L, U and working copies; its column order fills more than a symmetric one.
     const double factored =
-        plan.solver == StaticSolver::lu ? 4.0 * plan.fill.factor_bytes : plan.fill.peak_bytes;
-    solving = csr_bytes + std::max(block_bytes, factored);
+        plan.solver == StaticSolver::lu ? 6.3 * plan.fill.factor_bytes : plan.fill.peak_bytes;
+    // What the blocks of K leave is rarely of use to the factor.
+    solving = block_bytes + 12.0 * static_cast<double>(k.nonzeros()) + 8.0 * plan.dofs + factored;
   } else if (plan.dofs > 0) {
-    constexpr double cg_vectors = 8.0;
-    solving = operator_bytes(body) + 8.0 * dofs * cg_vectors + 8.0 * Dim * Dim * plan.particles;
+    held = std::max(held, 8.0 + Dim);  // loads, masses, conjugate gradients, block Jacobi
+    solving = operator_bytes(body);
   }
-  constexpr double program_bytes = 60e6;  // code, libraries and their work space
-  constexpr double vectors = 10.0;        // loads, displacements, forces, rigid motions
-  plan.memory_bytes = body_memory(body) + solving + 8.0 * Dim * vectors * plan.particles + program_bytes;
+  constexpr double program_bytes = 36e6;  // code, libraries and their work space
+  plan.memory_bytes = body_memory(body) + solving + held * vector + program_bytes;
   return plan;
 }
 
