@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/assembly/multigrid.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "linalg/v_cycle.hpp"
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/operators.hpp"
+#include "perimode/core/error.hpp"
+#include "transfer.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr Index fewest_layers = 4;       // of cells along every axis of a body that is coarsened
+constexpr Index most_factored = 200000;  // dofs of a coarsest level that is factored
+
+template <int Dim>
+bool can_be_coarsened(const Body<Dim>& body) {
+  const auto& cells = body.particles.grid->cells;
+  return std::all_of(cells.begin(), cells.end(), [](Index n) { return n >= fewest_layers; });
+}
+
+template <class T>
+double bytes_of(const std::vector<T>& v) {
+  return static_cast<double>(v.size() * sizeof(T));
+}
+
+template <int Dim>
+double body_bytes(const Body<Dim>& body) {
+  const auto& bonds = std::get<GridBonds<Dim>>(body.bonds);
+  return bytes_of(body.particles.position) + bytes_of(body.particles.volume) +
+         bytes_of(body.particles.block) + bytes_of(body.particles.cell) + bytes_of(bonds.occupant) +
+         bytes_of(bonds.home) + bytes_of(bonds.ghosts) + bytes_of(bonds.alive) +
+         bytes_of(body.constants.factor) + bytes_of(body.boundary.free_number) +
+         bytes_of(body.boundary.given) + bytes_of(body.boundary.image) + bytes_of(body.boundary.coefficient) +
+         bytes_of(body.boundary.value);
+}
+
+/// K of the coarsest level, made definite where rigid motions are free: shifted by 1e-8 of its largest
+/// diagonal entry.
+template <int Dim>
+CholeskyFactor factored(const Body<Dim>& body) {
+  const Csr matrix = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  CholeskyFactor factor(matrix, particle_of_free_dof(body));
+  double shift = 0.0;
+  for (int attempt = 0; attempt < 6; ++attempt) {
+    if (factor.factorize(matrix, -shift, Eigen::VectorXd::Ones(matrix.rows)) == FactorStatus::done)
+      return factor;
+    shift = shift == 0.0 ? 1e-8 * norm_inf(matrix) : 100.0 * shift;
+    if (shift == 0.0) shift = 1.0;
+  }
+  throw Error(ErrorKind::solver_failure, "the coarsest matrix of multigrid is not positive definite");
+}
+
+/// Coarse bodies and transfers, which the operators of the cycle point into.
+template <int Dim>
+struct Hierarchy {
+  std::vector<std::unique_ptr<const Body<Dim>>> bodies;
+  std::vector<std::unique_ptr<Transfer<Dim>>> transfers;
+  LinearOperator cycle;
+};
+
+}  // namespace
+
+template <int Dim>
+Multigrid multigrid(const Body<Dim>& body, const LinearOperator& stiffness, const MultigridOptions& options) {
+  if (!std::holds_alternative<GridBonds<Dim>>(body.bonds)) {
+    invalid_input(
+        {"a grid for multigrid", "a cloud", "use block Jacobi or a Cholesky factor for clouds", {}});
+  }
+  if (stiffness.size != body.boundary.free) {
+    invalid_input({"the stiffness operator of the body, size " + std::to_string(body.boundary.free),
+                   std::to_string(stiffness.size),
+                   "make it with stiffness_operator(body)",
+                   {}});
+  }
+  if (options.smoothing < 1) {
+    invalid_input({"a smoother of degree >= 1", std::to_string(options.smoothing), "give 2", {}});
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  Multigrid out;
+  const auto hierarchy = std::make_shared<Hierarchy<Dim>>();
+  VCycle cycle;
+  cycle.smoothing = options.smoothing;
+  const Body<Dim>* fine = &body;
+  for (;;) {
+    VCycleLevel level;
+    level.a = fine == &body ? stiffness : stiffness_operator(*fine);
+    out.dofs.push_back(level.a.size);
+    const bool last = level.a.size <= options.coarsest_dofs || !can_be_coarsened(*fine);
+    if (last && level.a.size <= std::max(options.coarsest_dofs, most_factored)) {
+      cycle.factor = factored(*fine);
+      cycle.levels.push_back(std::move(level));
+      break;
+    }
+    level.inverse = invert_blocks(diagonal_blocks(*fine), Dim, fine->boundary.free_number);
+    level.largest = largest_eigenvalue(level.a, level.inverse);
+    if (last) {
+      cycle.levels.push_back(std::move(level));
+      break;
+    }
+    hierarchy->bodies.push_back(std::make_unique<const Body<Dim>>(coarsen(*fine)));
+    const Body<Dim>& coarse = *hierarchy->bodies.back();
+    out.bytes += body_bytes(coarse) + operator_bytes(coarse);
+    hierarchy->transfers.push_back(std::make_unique<Transfer<Dim>>(*fine, coarse));
+    Transfer<Dim>* transfer = hierarchy->transfers.back().get();
+    out.bytes += transfer->bytes();
+    level.restrict_difference = [transfer](const double* b, const double* q, double* to) {
+      transfer->restrict_difference(b, q, to);
+    };
+    level.add_prolonged = [transfer](const double* from, double* x) { transfer->add_prolonged(from, x); };
+    cycle.levels.push_back(std::move(level));
+    fine = &coarse;
+  }
+  out.bytes += v_cycle_bytes(cycle);
+  hierarchy->cycle = v_cycle(std::move(cycle));
+  out.preconditioner = {stiffness.size,
+                        [hierarchy](const double* b, double* x) { hierarchy->cycle.apply(b, x); }};
+  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return out;
+}
+
+template Multigrid multigrid<1>(const Body<1>&, const LinearOperator&, const MultigridOptions&);
+template Multigrid multigrid<2>(const Body<2>&, const LinearOperator&, const MultigridOptions&);
+template Multigrid multigrid<3>(const Body<3>&, const LinearOperator&, const MultigridOptions&);
+
+}  // namespace perimode

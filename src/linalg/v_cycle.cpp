@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "v_cycle.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <utility>
+
+#include "fused.hpp"
+
+namespace perimode {
+namespace {
+
+/// x += d with d = momentum d + gain D^-1 (b - A x).
+struct ChebyshevCoefficients {
+  double momentum = 0.0;
+  double gain = 0.0;
+};
+
+std::vector<ChebyshevCoefficients> chebyshev(int degree, double largest) {
+  std::vector<ChebyshevCoefficients> out;
+  const char* ratio_text = std::getenv("MG_RATIO");
+  const double ratio = ratio_text ? std::atof(ratio_text) : 0.0;
+  if (ratio == 0.0) {
+    for (int k = 1; k <= degree; ++k)
+      out.push_back({(2.0 * k - 3.0) / (2.0 * k + 1.0), (8.0 * k - 4.0) / ((2.0 * k + 1.0) * largest)});
+    return out;
+  }
+  const double theta = 0.5 * largest * (1 + 1 / ratio), delta = 0.5 * largest * (1 - 1 / ratio);
+  double rho = delta / theta;
+  out.push_back({0.0, 1 / theta});
+  for (int k = 1; k < degree; ++k) {
+    const double next = 1.0 / (2.0 * theta / delta - rho);
+    out.push_back({next * rho, 2.0 * next / delta});
+    rho = next;
+  }
+  return out;
+}
+
+/// A cycle and the vectors it works on.
+class Cycle {
+ public:
+  explicit Cycle(VCycle cycle) : cycle_(std::move(cycle)), work_(cycle_.levels.size()) {
+    for (std::size_t l = 0; l < work_.size(); ++l) {
+      const Index n = cycle_.levels[l].a.size;
+      const bool coarsest = l + 1 == work_.size();
+      if (l > 0) work_[l].b.resize(n);
+      if (l > 0) work_[l].x.resize(n);
+      if (coarsest && cycle_.factor) continue;
+      work_[l].q.resize(n);
+      work_[l].d.resize(n);
+      work_[l].coefficients = chebyshev(cycle_.smoothing, cycle_.levels[l].largest);
+    }
+  }
+
+  void run(std::size_t l, const double* b, double* x) {
+    const VCycleLevel& level = cycle_.levels[l];
+    Work& work = work_[l];
+    const bool coarsest = l + 1 == work_.size();
+    if (coarsest && cycle_.factor) {
+      Eigen::Map<Eigen::VectorXd>(x, level.a.size) =
+          cycle_.factor->solve(Eigen::Map<const Eigen::VectorXd>(b, level.a.size));
+      return;
+    }
+    chebyshev_start(level.inverse, work.coefficients[0].gain, b, work.d.data(), x);
+    for (std::size_t k = 1; k < work.coefficients.size(); ++k) step(l, work.coefficients[k], b, x);
+    if (!coarsest) {
+      level.a.apply(x, work.q.data());
+      Work& next = work_[l + 1];
+      level.restrict_difference(b, work.q.data(), next.b.data());
+      run(l + 1, next.b.data(), next.x.data());
+      level.add_prolonged(next.x.data(), x);
+    }
+    for (std::size_t k = 0; k < work.coefficients.size(); ++k) {
+      ChebyshevCoefficients c = work.coefficients[k];
+      if (k == 0) c.momentum = 0.0;
+      step(l, c, b, x);
+    }
+  }
+
+ private:
+  struct Work {
+    Eigen::VectorXd b, x, q, d;
+    std::vector<ChebyshevCoefficients> coefficients;
+  };
+
+  void step(std::size_t l, const ChebyshevCoefficients& c, const double* b, double* x) {
+    const VCycleLevel& level = cycle_.levels[l];
+    level.a.apply(x, work_[l].q.data());
+    chebyshev_step(level.inverse, c.momentum, c.gain, b, work_[l].q.data(), work_[l].d.data(), x);
+  }
+
+  VCycle cycle_;
+  std::vector<Work> work_;
+};
+
+/// Numbers in [-1, 1) that depend on their place only.
+Eigen::VectorXd scattered(Index n) {
+  Eigen::VectorXd out(n);
+#pragma omp parallel for schedule(static)
+  for (Index i = 0; i < n; ++i) {
+    std::uint64_t z = (static_cast<std::uint64_t>(i) + 1) * 0x9E3779B97F4A7C15ULL;  // splitmix64
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
+    out[i] = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
+  }
+  return out;
+}
+
+}  // namespace
+
+double largest_eigenvalue(const LinearOperator& a, const BlockInverse& inverse, int steps) {
+  // The coefficients of conjugate gradients with D^-1 are the Lanczos tridiagonal matrix of D^-1 A.
+  const Index n = a.size;
+  Eigen::VectorXd r = scattered(n), x = Eigen::VectorXd::Zero(n), z(n), p, q(n);
+  std::vector<double> diagonal, below;
+  double rho = 0.0, last_alpha = 0.0;
+  const double start = dot(n, r.data(), r.data());
+  for (int k = 0; k < steps; ++k) {
+    apply(inverse, r.data(), z.data());
+    const double next = dot(n, r.data(), z.data());
+    const double beta = k == 0 ? 0.0 : next / rho;
+    if (k == 0) {
+      p = z;
+    } else {
+      turn(n, z.data(), beta, p.data());
+    }
+    rho = next;
+    a.apply(p.data(), q.data());
+    const double curvature = dot(n, p.data(), q.data());
+    if (!(curvature > 0.0)) break;
+    const double alpha = rho / curvature;
+    diagonal.push_back(1.0 / alpha + (k == 0 ? 0.0 : beta / last_alpha));
+    if (k > 0) below.push_back(std::sqrt(beta) / last_alpha);
+    last_alpha = alpha;
+    if (!(advance(n, alpha, p.data(), q.data(), x.data(), r.data()) > 1e-20 * start)) break;
+  }
+  if (diagonal.empty()) return 1.0;
+  const auto size = static_cast<Eigen::Index>(diagonal.size());
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+  ritz.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), size),
+                              Eigen::Map<Eigen::VectorXd>(below.data(), size - 1), Eigen::EigenvaluesOnly);
+  return 1.1 * ritz.eigenvalues()[size - 1];
+}
+
+double v_cycle_bytes(const VCycle& cycle) {
+  double numbers = 0.0;
+  for (std::size_t l = 0; l < cycle.levels.size(); ++l)
+    numbers += (l == 0 ? 2.0 : 4.0) * cycle.levels[l].a.size;
+  double bytes = numbers * sizeof(double);
+  for (const auto& level : cycle.levels) bytes += level.inverse.bytes();
+  if (cycle.factor) bytes += cycle.factor->fill().factor_bytes;
+  return bytes;
+}
+
+LinearOperator v_cycle(VCycle cycle) {
+  const Index size = cycle.levels.front().a.size;
+  const auto state = std::make_shared<Cycle>(std::move(cycle));
+  return {size, [state](const double* b, double* x) { state->run(0, b, x); }};
+}
+
+}  // namespace perimode
