@@ -10,6 +10,7 @@
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/core/error.hpp"
+#include "perimode/linalg/threads.hpp"
 #include "transfer.hpp"
 
 namespace perimode {
@@ -41,12 +42,26 @@ double body_bytes(const Body<Dim>& body) {
          bytes_of(body.boundary.value);
 }
 
+/// One thread while it lives: the dense kernels beneath a factorisation round differently for each number of
+/// threads.
+class OneThread {
+ public:
+  OneThread() { set_threads(1); }
+  ~OneThread() { set_threads(before_); }
+  OneThread(const OneThread&) = delete;
+  OneThread& operator=(const OneThread&) = delete;
+
+ private:
+  int before_ = threads();
+};
+
 /// K of the coarsest level, made definite where rigid motions are free: shifted by 1e-8 of its largest
 /// diagonal entry.
 template <int Dim>
 CholeskyFactor factored(const Body<Dim>& body) {
   const Csr matrix = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
   CholeskyFactor factor(matrix, particle_of_free_dof(body));
+  const OneThread guard;
   double shift = 0.0;
   for (int attempt = 0; attempt < 6; ++attempt) {
     if (factor.factorize(matrix, -shift, Eigen::VectorXd::Ones(matrix.rows)) == FactorStatus::done)

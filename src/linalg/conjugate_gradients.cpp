@@ -111,7 +111,8 @@ class Iteration {
       rho = next;
       a_.apply(p_.data(), q_.data());
       const double curvature = dot(n_, p_.data(), q_.data());
-      if (!(curvature > 0.0)) return "the matrix is not positive definite";
+      if (!(curvature > 0.0))
+        return "the matrix is not positive definite, or singular and b outside its range";
       residual =
           std::sqrt(advance(n_, rho / curvature, p_.data(), q_.data(), x_.data(), r_.data())) / size_of_b_;
       ++result.iterations;

@@ -4,7 +4,6 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 #include <utility>
 
@@ -14,29 +13,20 @@ namespace perimode {
 namespace {
 
 /// x += d with d = momentum d + gain D^-1 (b - A x).
-struct ChebyshevCoefficients {
+struct ChebyshevStep {
   double momentum = 0.0;
   double gain = 0.0;
 };
 
-std::vector<ChebyshevCoefficients> chebyshev(int degree, double largest) {
-  std::vector<ChebyshevCoefficients> out;
-  const char* ratio_text = std::getenv("MG_RATIO");
-  const double ratio = ratio_text ? std::atof(ratio_text) : 0.0;
-  if (ratio == 0.0) {
-    for (int k = 1; k <= degree; ++k)
-      out.push_back({(2.0 * k - 3.0) / (2.0 * k + 1.0), (8.0 * k - 4.0) / ((2.0 * k + 1.0) * largest)});
-    return out;
+/// The polynomial that bounds the error after a correction best without knowing where the rough modes begin:
+/// Chebyshev's of the fourth kind on (0, largest] [lottes2023].
+std::vector<ChebyshevStep> chebyshev(int degree, double largest) {
+  std::vector<ChebyshevStep> steps;
+  for (int k = 1; k <= degree; ++k) {
+    const double scale = 1.0 / (2.0 * k + 1.0);
+    steps.push_back({k == 1 ? 0.0 : (2.0 * k - 3.0) * scale, (8.0 * k - 4.0) * scale / largest});
   }
-  const double theta = 0.5 * largest * (1 + 1 / ratio), delta = 0.5 * largest * (1 - 1 / ratio);
-  double rho = delta / theta;
-  out.push_back({0.0, 1 / theta});
-  for (int k = 1; k < degree; ++k) {
-    const double next = 1.0 / (2.0 * theta / delta - rho);
-    out.push_back({next * rho, 2.0 * next / delta});
-    rho = next;
-  }
-  return out;
+  return steps;
 }
 
 /// A cycle and the vectors it works on.
@@ -51,7 +41,7 @@ class Cycle {
       if (coarsest && cycle_.factor) continue;
       work_[l].q.resize(n);
       work_[l].d.resize(n);
-      work_[l].coefficients = chebyshev(cycle_.smoothing, cycle_.levels[l].largest);
+      work_[l].steps = chebyshev(cycle_.smoothing, cycle_.levels[l].largest);
     }
   }
 
@@ -64,8 +54,8 @@ class Cycle {
           cycle_.factor->solve(Eigen::Map<const Eigen::VectorXd>(b, level.a.size));
       return;
     }
-    chebyshev_start(level.inverse, work.coefficients[0].gain, b, work.d.data(), x);
-    for (std::size_t k = 1; k < work.coefficients.size(); ++k) step(l, work.coefficients[k], b, x);
+    chebyshev_start(level.inverse, work.steps[0].gain, b, work.d.data(), x);
+    for (std::size_t k = 1; k < work.steps.size(); ++k) smooth(l, work.steps[k], b, x);
     if (!coarsest) {
       level.a.apply(x, work.q.data());
       Work& next = work_[l + 1];
@@ -73,23 +63,19 @@ class Cycle {
       run(l + 1, next.b.data(), next.x.data());
       level.add_prolonged(next.x.data(), x);
     }
-    for (std::size_t k = 0; k < work.coefficients.size(); ++k) {
-      ChebyshevCoefficients c = work.coefficients[k];
-      if (k == 0) c.momentum = 0.0;
-      step(l, c, b, x);
-    }
+    for (const ChebyshevStep& s : work.steps) smooth(l, s, b, x);
   }
 
  private:
   struct Work {
     Eigen::VectorXd b, x, q, d;
-    std::vector<ChebyshevCoefficients> coefficients;
+    std::vector<ChebyshevStep> steps;
   };
 
-  void step(std::size_t l, const ChebyshevCoefficients& c, const double* b, double* x) {
+  void smooth(std::size_t l, const ChebyshevStep& s, const double* b, double* x) {
     const VCycleLevel& level = cycle_.levels[l];
     level.a.apply(x, work_[l].q.data());
-    chebyshev_step(level.inverse, c.momentum, c.gain, b, work_[l].q.data(), work_[l].d.data(), x);
+    chebyshev_step(level.inverse, s.momentum, s.gain, b, work_[l].q.data(), work_[l].d.data(), x);
   }
 
   VCycle cycle_;
