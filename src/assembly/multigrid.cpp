@@ -114,7 +114,6 @@ Multigrid multigrid(const Body<Dim>& body, const LinearOperator& stiffness, cons
       break;
     }
     level.inverse = invert_blocks(diagonal_blocks(*fine), Dim, fine->boundary.free_number);
-    level.largest = largest_eigenvalue(level.a, level.inverse);
     if (last) {
       cycle.levels.push_back(std::move(level));
       break;

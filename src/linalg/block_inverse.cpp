@@ -29,7 +29,10 @@ Square inverse_of(const Square& a) {
     return 0.5 * (inverse + inverse.transpose());
   }
   Square inverse = Square::Zero(a.rows(), a.cols());
-  for (Eigen::Index k = 0; k < a.rows(); ++k) inverse(k, k) = a(k, k) > 0.0 ? 1.0 / a(k, k) : 1.0;
+  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+    // a <= rows diag(a) for every positive semi-definite a
+    inverse(k, k) = a(k, k) > 0.0 ? 1.0 / (static_cast<double>(a.rows()) * a(k, k)) : 1.0;
+  }
   return inverse;
 }
 

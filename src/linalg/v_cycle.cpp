@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "v_cycle.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <cmath>
-#include <cstdint>
 #include <memory>
 #include <utility>
-
-#include "fused.hpp"
 
 namespace perimode {
 namespace {
@@ -82,54 +77,7 @@ class Cycle {
   std::vector<Work> work_;
 };
 
-/// Numbers in [-1, 1) that depend on their place only.
-Eigen::VectorXd scattered(Index n) {
-  Eigen::VectorXd out(n);
-#pragma omp parallel for schedule(static)
-  for (Index i = 0; i < n; ++i) {
-    std::uint64_t z = (static_cast<std::uint64_t>(i) + 1) * 0x9E3779B97F4A7C15ULL;  // splitmix64
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9ULL;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBULL;
-    out[i] = static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-52 - 1.0;
-  }
-  return out;
-}
-
 }  // namespace
-
-double largest_eigenvalue(const LinearOperator& a, const BlockInverse& inverse, int steps) {
-  // The coefficients of conjugate gradients with D^-1 are the Lanczos tridiagonal matrix of D^-1 A.
-  const Index n = a.size;
-  Eigen::VectorXd r = scattered(n), x = Eigen::VectorXd::Zero(n), z(n), p, q(n);
-  std::vector<double> diagonal, below;
-  double rho = 0.0, last_alpha = 0.0;
-  const double start = dot(n, r.data(), r.data());
-  for (int k = 0; k < steps; ++k) {
-    apply(inverse, r.data(), z.data());
-    const double next = dot(n, r.data(), z.data());
-    const double beta = k == 0 ? 0.0 : next / rho;
-    if (k == 0) {
-      p = z;
-    } else {
-      turn(n, z.data(), beta, p.data());
-    }
-    rho = next;
-    a.apply(p.data(), q.data());
-    const double curvature = dot(n, p.data(), q.data());
-    if (!(curvature > 0.0)) break;
-    const double alpha = rho / curvature;
-    diagonal.push_back(1.0 / alpha + (k == 0 ? 0.0 : beta / last_alpha));
-    if (k > 0) below.push_back(std::sqrt(beta) / last_alpha);
-    last_alpha = alpha;
-    if (!(advance(n, alpha, p.data(), q.data(), x.data(), r.data()) > 1e-20 * start)) break;
-  }
-  if (diagonal.empty()) return 1.0;
-  const auto size = static_cast<Eigen::Index>(diagonal.size());
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-  ritz.computeFromTridiagonal(Eigen::Map<Eigen::VectorXd>(diagonal.data(), size),
-                              Eigen::Map<Eigen::VectorXd>(below.data(), size - 1), Eigen::EigenvaluesOnly);
-  return 1.1 * ritz.eigenvalues()[size - 1];
-}
 
 double v_cycle_bytes(const VCycle& cycle) {
   double numbers = 0.0;

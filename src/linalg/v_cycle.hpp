@@ -16,7 +16,7 @@ namespace perimode {
 struct VCycleLevel {
   LinearOperator a;
   BlockInverse inverse;  ///< D^-1 of the diagonal blocks of a
-  double largest = 0.0;  ///< no eigenvalue of D^-1 A lies above
+  double largest = 2.0;  ///< no eigenvalue of D^-1 A lies above: 2 where A sums bonds of two nodes
   std::function<void(const double* b, const double* q, double* coarse)> restrict_difference;
   std::function<void(const double* coarse, double* x)> add_prolonged;
 };
@@ -26,10 +26,6 @@ struct VCycle {
   std::optional<CholeskyFactor> factor;  ///< of the coarsest level's matrix; without one it is only smoothed
   int smoothing = 2;                     ///< degree of the Chebyshev smoother, before and after
 };
-
-/// Bound on the largest eigenvalue of D^-1 A: 1.1 times the largest Ritz value of `steps` Lanczos steps from
-/// a fixed random vector.
-[[nodiscard]] double largest_eigenvalue(const LinearOperator& a, const BlockInverse& inverse, int steps = 10);
 
 /// Bytes of the vectors of a cycle.
 [[nodiscard]] double v_cycle_bytes(const VCycle& cycle);

@@ -28,7 +28,7 @@ struct CgResult {
 };
 
 /// Preconditioned conjugate gradients for symmetric positive (semi-)definite A and a fixed symmetric positive
-/// definite preconditioner M^-1 ~ A^-1 (an empty apply: none), docs/theory. Where the
+/// definite preconditioner M^-1 ~ A^-1 (an empty apply: none), docs/theory/08_iterative.md. Where the
 /// residual of the recurrence meets the tolerance the true one is computed; if that does not, the iteration
 /// restarts from it, and gives up (`stagnation`) once a restart gains less than a factor of two. For a
 /// singular A, b has to be orthogonal to the null space; x then keeps the start's part in it up to round-off.
@@ -40,11 +40,12 @@ struct CgResult {
                                            const LinearOperator& preconditioner, const CgOptions& options,
                                            const Eigen::VectorXd* start = nullptr, const Sink& sink = {});
 
-/// Inverse of the diagonal blocks: `blocks` holds block x block numbers (row-major) per node, of which
-/// the dofs with number >= 0 in `dof_number` (block per node) are kept. A block that is not positive definite
-/// (pivots below 1e-12 of the largest count as zero) is replaced by its diagonal, a diagonal entry that is
-/// not positive by 1. Nodes in a row with equal blocks share one inverse. Throws invalid_input for sizes that
-/// do not belong together and blocks wider than 16. Cost per apply: one pass over x and y.
+/// Inverse of the diagonal blocks: `blocks` holds block x block numbers (row-major) per node, of which the
+/// dofs with number >= 0 in `dof_number` (block per node) are kept. A block of n rows that is not positive
+/// definite (pivots below 1e-12 of the largest count as zero) is replaced by n times its diagonal, which is
+/// an upper bound of a semi-definite one; a diagonal entry that is not positive by 1. Nodes in a row with
+/// equal blocks share one inverse. Throws invalid_input for sizes that do not belong together and blocks
+/// wider than 16. Cost per apply: one pass over x and y.
 [[nodiscard]] LinearOperator block_jacobi(const std::vector<double>& blocks, int block,
                                           std::span<const Index> dof_number);
 

@@ -202,14 +202,14 @@ TEST(BlockJacobi, InvertsTheKeptPartOfEachBlock) {
                                       4,  1, 1, 3,   // the second one only
                                       4,  1, 1, 3,   // none
                                       1,  1, 1, 1,   // singular: its diagonal
-                                      -2, 0, 0, 5};  // not positive: 1 and 1/5
+                                      -2, 0, 0, 5};  // not positive: 1 and 2 * 5
   const std::vector<Index> number = {0, 1, -1, 2, -1, -1, 3, 4, 5, 6};
   const LinearOperator m = block_jacobi(blocks, 2, number);
   ASSERT_EQ(m.size, 7);
   const Eigen::MatrixXd dense = multiply(m, Eigen::MatrixXd(Eigen::MatrixXd::Identity(7, 7)));
   Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(7, 7);
   expected.block<2, 2>(0, 0) << 3.0 / 11, -1.0 / 11, -1.0 / 11, 4.0 / 11;
-  expected.diagonal().tail(5) << 1.0 / 3, 1.0, 1.0, 1.0, 0.2;
+  expected.diagonal().tail(5) << 1.0 / 3, 0.5, 0.5, 1.0, 0.1;
   EXPECT_LT((dense - expected).cwiseAbs().maxCoeff(), 1e-15);
 }
 
