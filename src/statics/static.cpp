@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/multigrid.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/linalg/conjugate_gradients.hpp"
 #include "perimode/linalg/factor.hpp"
@@ -80,10 +81,13 @@ Solution solve_lu(const Body<Dim>& body, const StaticProblem& problem, StaticRes
 }
 
 template <int Dim>
-Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, double tolerance,
-                           StaticResult& result, Clock::time_point start, const Sink& sink) {
+Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, StaticSolver solver,
+                           double tolerance, StaticResult& result, Clock::time_point start,
+                           const Sink& sink) {
   sink.report("preconditioner");
-  const LinearOperator preconditioner = block_jacobi(diagonal_blocks(body), Dim, body.boundary.free_number);
+  const LinearOperator preconditioner =
+      solver == StaticSolver::multigrid ? multigrid(body, problem.stiffness).preconditioner
+                                        : block_jacobi(diagonal_blocks(body), Dim, body.boundary.free_number);
   result.seconds_setup = seconds_since(start);
   sink.report("iterating");
   CgOptions options;
@@ -103,8 +107,11 @@ void judge(StaticResult& result, const StaticProblem& problem, const Solution& s
     result.status = StaticStatus::converged;
     return;
   }
-  result.message = fmt::format("the residual is {:.1e}, above the tolerance {:.1e}{}{}", result.residual,
-                               tolerance, solution.message.empty() ? "" : ": ", solution.message);
+  result.message =
+      fmt::format("the residual is {:.1e}, above the tolerance {:.1e}", result.residual, tolerance);
+  if (solution.message.empty()) return;
+  result.message += ": " + solution.message +
+                    "; bonds that do not hold the body's shape (a horizon below 2 spacings) can be the cause";
 }
 
 }  // namespace
@@ -136,7 +143,7 @@ StaticResult solve_static(const Body<Dim>& body, const std::vector<BoundaryCondi
   } else if (choice.solver == StaticSolver::lu) {
     solution = solve_lu(body, problem, result, start, sink);
   } else {
-    solution = solve_iteratively(body, problem, options.tolerance, result, start, sink);
+    solution = solve_iteratively(body, problem, choice.solver, options.tolerance, result, start, sink);
   }
   if (result.rigid_modes > 0) {
     const Eigen::VectorXd share = problem.rigid.transpose() * problem.mass.cwiseProduct(solution.q);

@@ -19,6 +19,9 @@ namespace {
 constexpr double few_dofs[] = {1e9, 20000.0, 3000.0};
 /// Up to here a factor of a plane cloud fills modestly.
 constexpr double plane_cloud_dofs = 200000.0;
+/// Products with K that a solution with V-cycles takes, all levels together.
+constexpr double multigrid_products = 100.0;
+
 /// Length of the body in horizons, its largest extent.
 template <int Dim>
 double horizons_long(const Body<Dim>& body) {
@@ -59,8 +62,7 @@ const char* name_of(StaticSolver solver) {
 }
 
 template <int Dim>
-std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, const StaticProblem& problem,
-                                               double tolerance) {
+std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, double tolerance) {
   const double dofs = body.boundary.free;
   const bool grid = body.particles.grid.has_value();
   if (Dim == 1) return {StaticSolver::cholesky, "the factor of a bar is a narrow band"};
@@ -70,8 +72,10 @@ std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, const Stat
     return {StaticSolver::cholesky, "the factor of a plane cloud of this size fills modestly"};
   const double products = jacobi_iterations(horizons_long(body), tolerance);
   const std::string counted = fmt::format("block Jacobi would take about {:.0f} products with K", products);
-  if (problem.rigid.cols() > 0) return {StaticSolver::jacobi, "rigid motions are projected out; " + counted};
   if (!grid) return {StaticSolver::jacobi, "a cloud has no coarser grids; " + counted};
+  if (products > multigrid_products) {
+    return {StaticSolver::multigrid, fmt::format("{}, V-cycles about {:.0f}", counted, multigrid_products)};
+  }
   return {StaticSolver::jacobi, counted};
 }
 
@@ -111,18 +115,18 @@ SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
             fmt::format("walls make the equations unsymmetric, by {:.1e}", problem.asymmetry)};
   }
   if (!asked) {
-    auto [solver, reason] = automatic(body, problem, options.tolerance);
+    auto [solver, reason] = automatic(body, options.tolerance);
     return {solver, name_of(solver), std::move(reason)};
   }
-  if (problem.rigid.cols() > 0 &&
-      (options.solver == StaticSolver::multigrid || options.solver == StaticSolver::lu)) {
-    invalid_input({"solver auto, cholesky or jacobi for a body that is free to move",
-                   name_of(options.solver),
+  if (problem.rigid.cols() > 0 && options.solver == StaticSolver::lu) {
+    invalid_input({"solver auto, cholesky, multigrid or jacobi for a body that is free to move",
+                   "lu",
                    "leave analysis.static.solver out, or fix the body",
                    {}});
   }
-  if (options.solver == StaticSolver::multigrid) {
-    invalid_input({"solver auto, cholesky, jacobi or lu", "multigrid", "it is not in this version", {}});
+  if (options.solver == StaticSolver::multigrid && !body.particles.grid) {
+    invalid_input(
+        {"solver auto, cholesky, jacobi or lu for a cloud", "multigrid", "multigrid needs a grid", {}});
   }
   return {options.solver, name_of(options.solver), "asked for"};
 }
@@ -162,6 +166,12 @@ StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
   } else if (plan.dofs > 0) {
     held = std::max(held, 8.0 + Dim);  // loads, masses, conjugate gradients, block Jacobi
     solving = operator_bytes(body);
+    if (plan.solver == StaticSolver::multigrid) {
+      // Three vectors more on the finest grid, and coarser ones that hold 1 / (2^Dim - 1) of it together.
+      held += 3.0;
+      const double coarser = 1.0 / ((1 << Dim) - 1);
+      solving += coarser * (body_memory(body) + operator_bytes(body) + (7.0 + Dim) * vector);
+    }
   }
   constexpr double program_bytes = 36e6;  // code, libraries and their work space
   plan.memory_bytes = body_memory(body) + solving + held * vector + program_bytes;
