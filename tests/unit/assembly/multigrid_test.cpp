@@ -158,7 +158,7 @@ TEST(Multigrid, SolvesFreeBodies) {
   }
 }
 
-/// Measured when written: 2x.
+/// Measured when written: 2D 8, 9, 10, 11; 3D 8, 8, 9 iterations.
 TEST(Multigrid, TakesNearlyTheSameIterationsForAnySize) {
   for (const int n : {32, 64, 128, 256}) {
     const auto body = build_body<2>(test::clamped({n, n}));
