@@ -13,6 +13,9 @@ install(TARGETS perimode EXPORT perimode-targets
 if(TARGET perimode_cli)
   install(TARGETS perimode_cli RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
+if(TARGET perimode_slepc)
+  install(TARGETS perimode_slepc LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}/perimode")
+endif()
 install(EXPORT perimode-targets NAMESPACE perimode:: DESTINATION "${perimode_package_dir}")
 
 configure_package_config_file(cmake/perimode-config.cmake.in perimode-config.cmake

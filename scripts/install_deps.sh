@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs the Debian packages Perimode needs and that are missing; silent when none is.
-#   scripts/install_deps.sh [--dev | --fuzz]      --dev adds what scripts/lint.sh needs, --fuzz what scripts/fuzz.sh needs
+#   scripts/install_deps.sh [--dev | --fuzz | --slepc]      adds what scripts/lint.sh, scripts/fuzz.sh or
+#                                                     -DPERIMODE_WITH_SLEPC=ON need
 # As root it installs; otherwise it prints the line to run and exits with 3.
 set -euo pipefail
 
@@ -17,7 +18,8 @@ case "${1:-}" in
   "") ;;
   --dev) packages+=(clang-format-16 clang-tidy-16) ;;
   --fuzz) packages+=(clang-16 libclang-rt-16-dev llvm-16) ;;
-  *) echo "usage: $0 [--dev | --fuzz]" >&2; exit 2 ;;
+  --slepc) packages+=(slepc-dev libopenmpi-dev pkg-config) ;;
+  *) echo "usage: $0 [--dev | --fuzz | --slepc]" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null; then

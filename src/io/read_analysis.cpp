@@ -38,7 +38,8 @@ ModalOptions read_modal(const Cursor& cursor) {
     options.solver = solver->choice<ModalSolver>({{"auto", ModalSolver::automatic},
                                                   {"lanczos", ModalSolver::lanczos},
                                                   {"arpack", ModalSolver::arpack},
-                                                  {"dense", ModalSolver::dense}});
+                                                  {"dense", ModalSolver::dense},
+                                                  {"slepc", ModalSolver::slepc}});
   }
   if (const auto certificate = modal.find("certificate")) {
     options.certificate = certificate->choice<CertificateMethod>({{"auto", CertificateMethod::automatic},

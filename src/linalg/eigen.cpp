@@ -5,6 +5,7 @@
 
 #include "dense.hpp"
 #include "perimode/core/error.hpp"
+#include "slepc.hpp"
 #include "sparse_engine.hpp"
 
 namespace perimode {
@@ -40,6 +41,7 @@ EigenResult solve_eigen(const EigenProblem& problem, const EigenOptions& options
   const bool dense = options.engine == EigenEngine::dense || (options.engine == EigenEngine::automatic &&
                                                               problem.stiffness->rows <= options.dense_limit);
   if (dense) return solve_dense(problem, options);
+  if (options.engine == EigenEngine::slepc) return solve_slepc(problem, options, sink);
   if (options.has_range) return solve_range(problem, options, sink);
   // K >= 0: nothing lies below zero, so what is nearest to a shift there are the lowest modes.
   if (options.has_shift && options.shift > 0.0) return solve_nearest(problem, options, sink);

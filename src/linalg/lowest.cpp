@@ -10,11 +10,7 @@
 #include "sparse_engine.hpp"
 
 namespace perimode {
-namespace {
 
-/// The negative shift for a singular K: a part of the first elastic eigenvalue, which keeps the
-/// elastic modes to 12 digits from -1e-6 of it on; without an estimate a millionth of
-/// max K_ii / M_ii.
 double negative_shift(const EigenProblem& problem, const EigenOptions& options) {
   if (!std::isnan(options.negative_shift)) return options.negative_shift;
   if (options.scale > 0.0) return -0.1 * options.scale;
@@ -25,6 +21,8 @@ double negative_shift(const EigenProblem& problem, const EigenOptions& options) 
       if (k.column[e] == i) largest = std::max(largest, k.value[e] / (*problem.mass)[i]);
   return -1e-6 * std::max(largest, std::numeric_limits<double>::min());
 }
+
+namespace {
 
 /// Factors K - sigma M positive definite and says with which sigma; singular K falls back to a
 /// negative shift.

@@ -21,6 +21,11 @@ void check(const EigenProblem& problem, const EigenOptions& options);
 [[nodiscard]] EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& options,
                                         const Sink& sink);
 
+/// The negative shift for a singular K: a part of the first elastic eigenvalue, which keeps the
+/// elastic modes to 12 digits from -1e-6 of it on; without an estimate a millionth of
+/// max K_ii / M_ii.
+[[nodiscard]] double negative_shift(const EigenProblem& problem, const EigenOptions& options);
+
 [[nodiscard]] SearchSettings search_settings(const EigenOptions& options, Index rows);
 [[nodiscard]] Method search_method(const EigenOptions& options);
 [[nodiscard]] const char* method_name(const EigenOptions& options);

@@ -89,7 +89,9 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
                       : fmt::format("{} dofs are few: all modes by LAPACK", plan.dofs);
     solving = (symmetric ? 3.0 : 8.0) * 8.0 * dofs * dofs;
   } else if (symmetric) {
-    plan.solver = options.solver == ModalSolver::arpack ? "arpack" : "lanczos";
+    plan.solver = options.solver == ModalSolver::arpack  ? "arpack"
+                  : options.solver == ModalSolver::slepc ? "slepc"
+                                                         : "lanczos";
     plan.reason = options.solver == ModalSolver::automatic
                       ? "K is symmetric: one supernodal Cholesky factor serves all modes asked for"
                       : "asked for";

@@ -24,7 +24,8 @@ struct EigenProblem {
   const Eigen::MatrixXd* known = nullptr;
 };
 
-enum class EigenEngine { automatic, lanczos, arpack, dense };
+/// slepc needs a library built with PERIMODE_WITH_SLEPC; else Error(environment).
+enum class EigenEngine { automatic, lanczos, arpack, dense, slepc };
 enum class CompletenessCheck { automatic, inertia, restart, none };
 
 struct EigenOptions {
@@ -68,7 +69,7 @@ struct EigenResult {
   Eigen::VectorXd value;   ///< ascending
   Eigen::MatrixXd vector;  ///< columns, x^T M x = 1
   Certificate certificate;
-  std::string engine;   ///< "lanczos", "arpack", "dense"
+  std::string engine;   ///< "lanczos", "arpack", "dense", "slepc"
   std::string message;  ///< why, when not converged or not certified
   double shift = 0.0;   ///< used
   int solves = 0;       ///< single right-hand sides

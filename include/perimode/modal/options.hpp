@@ -9,7 +9,7 @@
 namespace perimode {
 
 /// lanczos: block Lanczos with full reorthogonalisation on CHOLMOD's factor. arpack: ARPACK on
-/// the same factor. dense: LAPACK, all modes.
+/// the same factor. dense: LAPACK, all modes. slepc: Krylov-Schur on a factor of MUMPS, where built in.
 using ModalSolver = EigenEngine;
 
 /// How the set of modes is shown to be complete. inertia: the count of negative pivots of

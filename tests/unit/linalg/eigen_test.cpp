@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/linalg/eigen.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -255,6 +256,20 @@ TEST(Eigen, RefusesAnIndefiniteStiffness) {
       (void)solve_eigen({.stiffness = &k, .mass = &mass}, {.count = 3, .engine = EigenEngine::lanczos}),
       Error);
 }
+
+#ifndef PERIMODE_WITH_SLEPC
+TEST(Eigen, SaysThatItWasBuiltWithoutSlepc) {
+  const Csr k = test::chain(5, true);
+  const Eigen::VectorXd mass = Eigen::VectorXd::Ones(5);
+  try {
+    (void)solve_eigen({.stiffness = &k, .mass = &mass}, {.count = 2, .engine = EigenEngine::slepc});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::environment);
+    EXPECT_THAT(error.what(), testing::HasSubstr("PERIMODE_WITH_SLEPC"));
+  }
+}
+#endif
 
 }  // namespace
 }  // namespace perimode
