@@ -9,16 +9,18 @@
 namespace perimode {
 
 /// How the products of a run of particles are summed. whole: every family member there and alive, one
-/// stiffness. partial: bonds missing or scaled by calibration factors, one material. mixed: several.
-enum class Families : std::uint8_t { whole, partial, mixed };
+/// stiffness. edge: so but for cells without particle. partial: bonds broken or scaled by different
+/// calibration factors, one material. mixed: several materials.
+enum class Families : std::uint8_t { whole, edge, partial, mixed };
 
 /// Consecutive particles of one row of cells, their bonds summed alike.
 struct ParticleRun {
   Index cell = 0;      ///< of the first one within its layer of the padded grid
   Index particle = 0;  ///< first
   Index count = 0;
-  Index dof = -1;  ///< number of the first free dof where all are free; -1: by particle
-  Index set = 0;   ///< vectors b of the family
+  Index dof = -1;      ///< number of the first free dof where all are free; -1: by particle
+  Index set = 0;       ///< vectors b of the family
+  Offset missing = 0;  ///< edge: first entry in Stencil::missing
   Families families = Families::whole;
 };
 
@@ -45,6 +47,7 @@ struct Stencil {
   std::vector<int> pair_start;  ///< per pattern of components
   std::vector<double> b;        ///< sqrt(k_b) n per set, pair and component
   std::vector<double> factor;   ///< calibration factors over the padded grid; empty: all 1
+  std::vector<double> missing;  ///< of edge runs, StencilRun::missing
   std::vector<ParticleRun> run;
   std::vector<Index> layer_run;  ///< first run of each layer
   std::vector<FillRun> fill;
@@ -53,6 +56,7 @@ struct Stencil {
   /// Memory of one thread.
   struct Work {
     std::vector<double> window;        ///< displacements of 2 reach + 1 layers
+    std::vector<const double*> layer;  ///< the layers in reach, the lowest first
     std::vector<const double*> at;     ///< per family member
     std::vector<std::uint64_t> lanes;  ///< alive bits
     std::vector<double> out;           ///< K u of a piece of a run

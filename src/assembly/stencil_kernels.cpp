@@ -38,7 +38,7 @@ template <int Dim, int Pattern, int Groups>
   }
 }
 
-template <int Dim, int Groups>
+template <int Dim, int Groups, bool Missing>
 [[gnu::always_inline]] inline void whole_group(const StencilPairs& pairs, const StencilRun& run,
                                                std::ptrdiff_t t) {
   Vector twice[Dim][Groups];
@@ -59,17 +59,37 @@ template <int Dim, int Groups>
     add_whole_pairs<Dim, 6, Groups>(pairs, run, t, twice, y);
     add_whole_pairs<Dim, 7, Groups>(pairs, run, t, twice, y);
   }
+  if constexpr (Missing) {
+    const double* entry = run.missing + t;
+    for (int a = 0; a < Dim; ++a) {
+      for (int b = a; b < Dim; ++b, entry += run.missing_stride) {
+        for (int g = 0; g < Groups; ++g) {
+          const Vector m = *reinterpret_cast<const Vector*>(entry + g * width);
+          y[a][g] -= m * twice[b][g];
+          if (b != a) y[b][g] -= m * twice[a][g];
+        }
+      }
+    }
+  }
   for (int a = 0; a < Dim; ++a) {
     for (int g = 0; g < Groups; ++g)
       *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t + g * width) = y[a][g];
   }
 }
 
+template <int Dim, bool Missing>
+[[gnu::always_inline]] inline void whole_groups(const StencilPairs& pairs, const StencilRun& run) {
+  Index t = 0;
+  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2, Missing>(pairs, run, t);
+  if (t < run.count) whole_group<Dim, 1, Missing>(pairs, run, t);
+}
+
 template <int Dim>
 [[gnu::always_inline]] inline void whole(const StencilPairs& pairs, const StencilRun& run) {
-  Index t = 0;
-  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2>(pairs, run, t);
-  if (t < run.count) whole_group<Dim, 1>(pairs, run, t);
+  if (run.missing != nullptr)
+    whole_groups<Dim, true>(pairs, run);
+  else
+    whole_groups<Dim, false>(pairs, run);
 }
 
 /// Weight per lane of the bond to a family member: 0 where it is not alive, (f_i + f_j) / 2 where it is.

@@ -11,6 +11,8 @@ namespace perimode {
 /// The kernels take whole groups of particles: they read and write up to so many numbers past the end of a
 /// run.
 constexpr Index stencil_slack = 8;
+/// Particles of the groups that hold `count` of them.
+constexpr Index in_groups(Index count) { return (count + stencil_slack - 1) / stencil_slack * stencil_slack; }
 
 /// Half of a family, one of each pair of opposite members, sorted by the components that are not zero.
 struct StencilPairs {
@@ -27,8 +29,11 @@ struct StencilRun {
   const double* here;       ///< x component at the layer's cell 0
   std::ptrdiff_t stride;
   const double* b;
-  Index cell;   ///< of particle 0 of the run in its layer
-  Index count;  ///< particles
+  Index cell;             ///< of particle 0 of the run in its layer
+  Index count;            ///< particles
+  const double* missing;  ///< half of the sum of b b^T of the cells around that hold no particle, the entries
+                          ///< on and above the diagonal missing_stride apart; null: there are none
+  std::ptrdiff_t missing_stride;
   double* out;  ///< K u; component a at a * out_stride
   std::ptrdiff_t out_stride;
 };
@@ -43,7 +48,8 @@ struct StencilBits {
   const Index* step;     ///< cells to each family member
 };
 
-/// K u of particles with whole families: sum over pairs of b (b . (2 u_i - u_+ - u_-)).
+/// K u of particles whose bonds all are alive: sum over pairs of b (b . (2 u_i - u_+ - u_-)), with u = 0 in
+/// cells without particle, whose b b^T u_i is taken back.
 template <int Dim>
 void whole_families(const StencilPairs& pairs, const StencilRun& run);
 

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <random>
 
+#include "operator_checks.hpp"
 #include "perimode/assembly/assemble.hpp"
-#include "perimode/linalg/threads.hpp"
 #include "support/models.hpp"
 
 namespace perimode {
@@ -20,6 +20,9 @@ using test::add_wall;
 using test::add_walls;
 using test::box_model;
 using test::fix_face;
+using test::of_blocks;
+using test::random_vector;
+using test::sizes;
 
 constexpr std::array kernels = {Kernel::constant, Kernel::conical, Kernel::gaussian,
                                 Kernel::inverse_distance};
@@ -27,40 +30,6 @@ constexpr std::array calibrations = {Calibration::continuum, Calibration::discre
                                      Calibration::discrete_cut};
 constexpr std::array wall_types = {WallType::odd, WallType::even, WallType::mirror, WallType::antimirror,
                                    WallType::zero_layer};
-
-Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  return Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
-}
-
-/// sum_b k_b |n| (|n| . (|u_i| + |u_j|)): the sizes of the numbers each row sums, before they cancel.
-template <int Dim>
-Eigen::VectorXd sizes(const Body<Dim>& body, const Eigen::VectorXd& x) {
-  const auto& map = body.boundary;
-  const auto u = map.expand(x.data());
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
-  for (Index i = 0; i < body.count(); ++i) {
-    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-      const Point<Dim> n = (end.xi / end.length).cwiseAbs();
-      double stretch = 0.0;
-      for (int a = 0; a < Dim; ++a) {
-        const std::size_t own = static_cast<std::size_t>(i) * Dim + a;
-        const auto g = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
-        const double other =
-            end.neighbour < body.count()
-                ? u[static_cast<std::size_t>(end.neighbour) * Dim + a]
-                : map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a];
-        stretch += n[a] * ((map.free_number[own] < 0 ? 0.0 : std::abs(u[own])) + std::abs(other));
-      }
-      for (int a = 0; a < Dim; ++a) {
-        const Index number = map.free_number[static_cast<std::size_t>(i) * Dim + a];
-        if (number >= 0) out[number] += bond_stiffness(body, i, end) * n[a] * stretch;
-      }
-    });
-  }
-  return out;
-}
 
 /// Every form times a random vector is the assembled matrix times it. Each row sums up to some hundred
 /// products whose sizes add up to `sizes`; round-off of the sums, of b = sqrt(k) n and of the harmonic mean
@@ -184,21 +153,6 @@ TEST(Operators, EveryFormEqualsTheMatrixForFixedDofs) {
   k.apply(nullptr, nullptr);
 }
 
-Model of_blocks(const std::vector<int>& cells, Calibration calibration) {
-  Model m = box_model(cells, 1.0, 3.0);
-  Coordinates centre;
-  for (int n : cells) centre.push_back(n / 3.0);
-  m.blocks.push_back({"stiff", Region{BallRegion{centre, 3.0}, {}}});
-  for (double& c : centre) c += 5.0;
-  m.blocks.push_back({"same", Region{BallRegion{centre, 3.0}, {}}});
-  m.block_materials["stiff"] = m.material;
-  m.block_materials["stiff"].youngs_modulus = 7.0;
-  m.block_materials["stiff"].micromodulus.kernel = Kernel::gaussian;
-  std::get<GridSpec>(m.particles).remove.push_back(Region{BallRegion{{12.0, 3.0, 4.0}, 1.9}, {}});
-  m.calibration = calibration;
-  return m;
-}
-
 TEST(Operators, EveryFormEqualsTheMatrixForBlocksAndHoles) {
   for (auto calibration : calibrations) {
     for (const auto& cells : {std::vector{33}, std::vector{29, 18}, std::vector{14, 11, 12}}) {
@@ -316,125 +270,6 @@ TEST(Operators, EveryFormEqualsTheMatrixForRandomModels) {
     SCOPED_TRACE(seed);
     expect_any(random_model(seed), seed);
   }
-}
-
-TEST(Operators, TranslationsOfFreeBodiesGiveNoForce) {
-  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
-    Model m = box_model({25, 21}, 0.1, 3.0);
-    m.calibration = calibration;
-    const auto body = build_body<2>(m);
-    Eigen::VectorXd shift(2 * body.count());
-    for (Index i = 0; i < body.count(); ++i) shift.segment<2>(2 * i) << 0.3, -0.7;
-    for (auto form : {StiffnessForm::stencil, StiffnessForm::bonds}) {  // sums of differences: exactly
-      EXPECT_EQ(multiply(stiffness_operator(body, form), shift).cwiseAbs().maxCoeff(), 0.0);
-    }
-  }
-}
-
-TEST(Operators, AnyNumberOfThreadsGivesTheSameBits) {
-  const int before = threads();
-  for (const auto& cells : {std::vector{3000}, std::vector{61, 47}, std::vector{15, 14, 17}}) {
-    Model m = of_blocks(cells, Calibration::discrete);
-    std::get<GridSpec>(m.particles).remove.clear();
-    add_wall(m, 0, false, WallType::mirror);
-    const auto check = [&](const auto& body) {
-      const Eigen::VectorXd x = random_vector(body.boundary.free, 5);
-      for (auto form : {StiffnessForm::stencil, StiffnessForm::bonds, StiffnessForm::blocks}) {
-        set_threads(1);
-        const auto k = stiffness_operator(body, form);  // made for one thread, used by more
-        const Eigen::VectorXd one = multiply(k, x);
-        for (int count : {2, 3}) {
-          set_threads(count);
-          EXPECT_TRUE((multiply(k, x).array() == one.array()).all()) << count << " threads";
-        }
-      }
-    };
-    if (m.dimension == 1) check(build_body<1>(m));
-    if (m.dimension == 2) check(build_body<2>(m));
-    if (m.dimension == 3) check(build_body<3>(m));
-  }
-  set_threads(before);
-}
-
-TEST(Operators, InternalForceIsTheOperatorOnFreeBodies) {
-  Model m = box_model({19, 14}, 0.5, 3.0);
-  add_walls(m, 1, WallType::odd);
-  m.calibration = Calibration::discrete;
-  const auto body = build_body<2>(m);
-  const Eigen::VectorXd x = random_vector(body.boundary.free, 2);
-  const Eigen::VectorXd difference = internal_force(body, x) - multiply(stiffness_operator(body), x);
-  EXPECT_TRUE((difference.array().abs() <= 2e-14 * sizes(body, x).array()).all());
-}
-
-TEST(Operators, InternalForceTakesGivenValuesOfGhosts) {
-  Model bar = box_model({20}, 1.0, 3.0);
-  bar.boundary.push_back({Wall{{0, false}, WallType::surface_nodes, {0.0}}, {}});
-  bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {2.0}}, {}});
-  const auto body = build_body<1>(bar);
-  Eigen::VectorXd stretched(20);
-  for (int i = 0; i < 20; ++i) stretched[i] = 0.1 * (i + 0.5);
-  // Uniform strain through both surface points is in equilibrium; forces of single bonds are about 1.
-  EXPECT_LE(internal_force(body, stretched).cwiseAbs().maxCoeff(), 1e-13);
-}
-
-template <int Dim>
-void expect_blocks_and_bound(const Model& model) {
-  const auto body = build_body<Dim>(model);
-  const BlockCsr k = assemble_stiffness(body);
-  const auto blocks = diagonal_blocks(body);
-  double largest = 0.0;
-  double worst = 0.0;
-  for (Index i = 0; i < k.rows; ++i) {
-    for (Offset e = k.row_start[i]; e < k.row_start[i + 1]; ++e) {
-      for (int c = 0; k.column[e] == i && c < Dim * Dim; ++c) {
-        largest = std::max(largest, std::abs(k.value[e * Dim * Dim + c]));
-        worst = std::max(worst, std::abs(k.value[e * Dim * Dim + c] -
-                                         blocks[static_cast<std::size_t>(i) * Dim * Dim + c]));
-      }
-    }
-  }
-  EXPECT_LE(worst, 1e-13 * largest);
-  const double norm = norm_inf(scalar_csr(k, body.boundary.free_number));
-  EXPECT_GE(stiffness_bound(body), norm * (1.0 - 1e-13));
-  if (body.boundary.image.empty()) {
-    EXPECT_NEAR(stiffness_bound(body), norm, 1e-13 * norm);
-  }
-}
-
-TEST(Operators, DiagonalBlocksAndTheBoundAreThoseOfTheMatrix) {
-  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
-    Model bar = box_model({20}, 0.5, 3.0);
-    Model plate = of_blocks({19, 17}, calibration);
-    std::get<GridSpec>(plate.particles).remove.clear();
-    fix_face(plate, 0, false, 2, {1});
-    Model block = box_model({7, 6, 8}, 0.5, 2.0);
-    block.calibration = calibration;
-    expect_blocks_and_bound<1>(bar);
-    expect_blocks_and_bound<2>(plate);
-    expect_blocks_and_bound<3>(block);
-    add_wall(bar, 0, true, WallType::surface_nodes);
-    add_wall(plate, 1, false, WallType::antimirror);
-    add_walls(block, 2, WallType::odd);
-    expect_blocks_and_bound<1>(bar);
-    expect_blocks_and_bound<2>(plate);
-    expect_blocks_and_bound<3>(block);
-  }
-}
-
-TEST(Operators, BytesCountWhatIsStored) {
-  Model m = box_model({40, 30}, 1.0, 3.0);
-  const auto body = build_body<2>(m);
-  const double ends = 2.0 * static_cast<double>(count_bonds(body.bonds, body.count()));
-  // Beside the arrays per bond end there are row starts: 8 bytes for some 26 ends.
-  EXPECT_NEAR(operator_bytes(body, StiffnessForm::bonds), 20.0 * ends, 0.03 * 20.0 * ends);
-  EXPECT_NEAR(operator_bytes(body, StiffnessForm::blocks), 36.0 * (ends + 1200.0), 0.01 * 36.0 * ends);
-  // The stencil keeps 7 layers of 46 cells and two components, 48 (odd: 56) numbers each, and a short plan.
-  EXPECT_LT(operator_bytes(body, StiffnessForm::stencil), 0.1 * operator_bytes(body, StiffnessForm::bonds));
-  add_walls(m, 0, WallType::mirror);
-  const auto walls = build_body<2>(m);
-  const BlockCsr k = assemble_stiffness(walls);
-  EXPECT_NEAR(operator_bytes(walls, StiffnessForm::blocks), 36.0 * static_cast<double>(k.blocks()),
-              0.01 * 36.0 * static_cast<double>(k.blocks()));
 }
 
 }  // namespace

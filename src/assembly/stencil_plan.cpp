@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "stencil.hpp"
+#include "stencil_kernels.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
+/// Share of its family, per component, from which a particle counts as an edge: it bounds the round-off of
+/// what is taken back.
+constexpr double least_edge = 0.125;
+
+/// What decides how a particle's bonds are summed.
+template <int Dim>
+struct Classes {
+  const Body<Dim>& body;
+  const GridBonds<Dim>& bonds;
+  std::vector<int> material;              ///< per block: the first block of the same micromoduli
+  Point<Dim> whole = Point<Dim>::Zero();  ///< sum of n_a^2 over the family
+
+  explicit Classes(const Body<Dim>& of) : body(of), bonds(std::get<GridBonds<Dim>>(of.bonds)) {
+    const auto& kernel = body.constants.kernel;
+    const std::ptrdiff_t size = body.constants.family_size;
+    for (std::size_t i = 0; i < body.density.size(); ++i) {
+      std::size_t j = 0;
+      const auto mine = kernel.begin() + static_cast<std::ptrdiff_t>(i) * size;
+      while (!std::equal(mine, mine + size, kernel.begin() + static_cast<std::ptrdiff_t>(j) * size)) ++j;
+      material.push_back(static_cast<int>(j));
+    }
+    for (int k = 0; k < bonds.family.size(); ++k) whole += square(k);
+  }
+
+  [[nodiscard]] double factor(Index i) const {
+    return body.constants.factor.empty() ? 1.0 : body.constants.factor[i];
+  }
+
+  /// Equal micromoduli and factors give the harmonic mean of two blocks the value of either.
+  [[nodiscard]] bool differ(Index i, Index j) const {
+    const auto& block = body.particles.block;
+    return block[i] != block[j] && (material[block[i]] != material[block[j]] || factor(i) != factor(j));
+  }
+
+  [[nodiscard]] Families families(Index i) const {
+    const bool plain = body.density.size() == 1 && body.constants.factor.empty();
+    const int size = bonds.family.size();
+    int ends = 0;
+    for (int w = 0; w < bonds.words; ++w)
+      ends += std::popcount(bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]);
+    if (plain && ends == size) return Families::whole;
+    int cells = 0;
+    bool one_factor = true;
+    bool one_material = true;
+    Point<Dim> share = Point<Dim>::Zero();  // sum of n_a^2 per component
+    const Index* here = bonds.occupant.data() + bonds.home[i];
+    for (int k = 0; k < size; ++k) {
+      const Index partner = here[bonds.step[k]];
+      cells += partner != GridBonds<Dim>::absent ? 1 : 0;
+      if (!is_alive(bonds, i, k)) continue;
+      share += square(k);
+      if (plain) continue;
+      const Index j = owner(body.bonds, partner, body.count());
+      one_factor = one_factor && factor(i) == factor(j);
+      one_material = one_material && !differ(i, j);
+    }
+    if (!one_material) return Families::mixed;
+    if (!one_factor || ends < cells) return Families::partial;
+    if (ends == size) return Families::whole;
+    return (share.array() < least_edge * whole.array()).any() ? Families::partial : Families::edge;
+  }
+
+  /// n_a^2 of a member of the family.
+  [[nodiscard]] Point<Dim> square(int member) const {
+    Point<Dim> n;
+    for (int a = 0; a < Dim; ++a)
+      n[a] = bonds.family.spacing * bonds.family.offset[member][a] / bonds.family.length[member];
+    return n.cwiseAbs2();
+  }
+};
+
+/// Edge and partial families fill the kernels' groups with whole ones from beside them: a group costs the
+/// same however many particles it holds. All of one row, with the same dofs and material.
+template <class Iterator>
+void round_to_groups(Iterator begin, Iterator end) {
+  for (auto first = begin; first != end;) {
+    const Families kind = *first;
+    auto last = std::find_if(first, end, [&](Families f) { return f != kind; });
+    if (kind == Families::edge || kind == Families::partial) {
+      auto spare = in_groups(static_cast<Index>(last - first)) - static_cast<Index>(last - first);
+      for (; spare > 0 && last != end && *last == Families::whole; --spare) *last++ = kind;
+      for (; spare > 0 && first != begin && *(first - 1) == Families::whole; --spare) *--first = kind;
+    }
+    first = last;
+  }
+}
+
+template <int Dim>
+void add_pairs(Stencil<Dim>& s) {
+  const Family<Dim>& family = s.bonds->family;
+  for (int pattern = 0; pattern < StencilPairs::patterns; ++pattern) {
+    s.pair_start.push_back(static_cast<int>(s.pair.size()));
+    for (int k = 0; k < family.size() / 2; ++k) {
+      int own = 0;
+      for (int a = 0; a < Dim; ++a) own |= family.offset[k][a] != 0 ? 1 << a : 0;
+      if (own == pattern) s.pair.push_back(k);
+    }
+  }
+  s.pair_start.push_back(static_cast<int>(s.pair.size()));
+}
+
+/// b = sqrt(k_b) n of the family of a block, all calibration factors equal.
+template <int Dim>
+Index add_set(Stencil<Dim>& s, int block, double factor) {
+  const Family<Dim>& family = s.bonds->family;
+  const double volume = s.body->particles.volume[0];
+  const auto number = static_cast<Index>(s.b.size() / (s.pair.size() * Dim));
+  for (const int k : s.pair) {
+    const double c = factor * s.body->constants.kernel[static_cast<std::size_t>(block) * family.size() + k];
+    const double root = std::sqrt(c * family.weight[k] * (volume * volume) / family.length[k]);
+    for (int a = 0; a < Dim; ++a)
+      s.b.push_back(root * (family.spacing * family.offset[k][a] / family.length[k]));
+  }
+  return number;
+}
+
+/// Half of the sum of b b^T over the cells around each particle of an edge run that hold none.
+template <int Dim>
+void add_missing(Stencil<Dim>& s, ParticleRun& run) {
+  const Index stride = in_groups(run.count);
+  run.missing = static_cast<Offset>(s.missing.size());
+  s.missing.resize(s.missing.size() + static_cast<std::size_t>(stride) * Dim * (Dim + 1) / 2, 0.0);
+  const double* set = s.b.data() + static_cast<std::size_t>(run.set) * s.pair.size() * Dim;
+  for (std::size_t p = 0; p < s.pair.size(); ++p) {
+    const double* b = set + p * Dim;
+    const Index step = s.bonds->step[s.pair[p]];  // of the opposite member: -step
+    for (Index t = 0; t < run.count; ++t) {
+      const Index* here = s.bonds->occupant.data() + s.bonds->home[run.particle + t];
+      const double half = 0.5 * static_cast<double>((here[step] == GridBonds<Dim>::absent ? 1 : 0) +
+                                                    (here[-step] == GridBonds<Dim>::absent ? 1 : 0));
+      if (half == 0.0) continue;
+      double* entry = s.missing.data() + run.missing + t;
+      for (int a = 0; a < Dim; ++a) {
+        for (int c = a; c < Dim; ++c, entry += stride) *entry += half * (b[a] * b[c]);
+      }
+    }
+  }
+}
+
+/// Free dofs of a particle: all, some or none.
+enum class Dofs { all, some, none };
+
+template <int Dim>
+Dofs dofs_of(const BoundaryMap<Dim>& boundary, Index i) {
+  int free = 0;
+  for (int a = 0; a < Dim; ++a)
+    free += boundary.free_number[static_cast<std::size_t>(i) * Dim + a] >= 0 ? 1 : 0;
+  return free == Dim ? Dofs::all : free > 0 ? Dofs::some : Dofs::none;
+}
+
+template <int Dim>
+void add_particle_runs(Stencil<Dim>& s) {
+  const Body<Dim>& body = *s.body;
+  const Classes<Dim> classes(body);
+  const Index n = body.count();
+  const auto& home = s.bonds->home;
+  std::vector<Families> families(static_cast<std::size_t>(n));
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
+  for (Index i = 0; i < n; ++i) families[i] = classes.families(i);
+
+  std::map<std::pair<int, double>, Index> sets;  // by material and factor
+  const auto set_of = [&](Index i) {
+    const std::pair key(
+        classes.material[body.particles.block[i]],
+        families[i] == Families::whole || families[i] == Families::edge ? classes.factor(i) : 1.0);
+    const auto [at, fresh] = sets.emplace(key, 0);
+    if (fresh) at->second = add_set(s, key.first, key.second);
+    return at->second;
+  };
+  s.layer_run.assign(static_cast<std::size_t>(s.layers) + 1, 0);
+  for (Index first = 0, last = 0; first < n; first = last) {
+    const Dofs dofs = dofs_of(body.boundary, first);
+    const int material = classes.material[body.particles.block[first]];
+    last = first + 1;
+    while (last < n && home[last] == home[last - 1] + 1 && dofs_of(body.boundary, last) == dofs &&
+           classes.material[body.particles.block[last]] == material)
+      ++last;
+    if (dofs == Dofs::none) continue;
+    round_to_groups(families.begin() + first, families.begin() + last);
+    for (Index i = first; i < last;) {
+      ParticleRun run{home[i] % s.layer_cells, i, 1, -1, set_of(i), 0, families[i]};
+      if (dofs == Dofs::all) run.dof = body.boundary.free_number[static_cast<std::size_t>(i) * Dim];
+      for (++i; i < last && families[i] == run.families && set_of(i) == run.set; ++i) ++run.count;
+      if (run.families == Families::edge) add_missing(s, run);
+      s.run.push_back(run);
+      ++s.layer_run[home[first] / s.layer_cells - s.reach + 1];
+    }
+  }
+  for (Index layer = 0; layer < s.layers; ++layer) s.layer_run[layer + 1] += s.layer_run[layer];
+}
+
+template <int Dim>
+void add_fillings(Stencil<Dim>& s) {
+  const BoundaryMap<Dim>& boundary = s.body->boundary;
+  const Index n = s.body->count();
+  const auto filling = [&](Index cell, Index occupant) {
+    if (occupant == GridBonds<Dim>::absent) return FillRun{cell, 1, 0, FillRun::What::nothing};
+    if (occupant >= n) return FillRun{cell, 1, occupant - n, FillRun::What::ghosts};
+    if (dofs_of(boundary, occupant) != Dofs::all) return FillRun{cell, 1, occupant, FillRun::What::particles};
+    return FillRun{cell, 1, boundary.free_number[static_cast<std::size_t>(occupant) * Dim],
+                   FillRun::What::free};
+  };
+  const Index* occupant = s.bonds->occupant.data();
+  for (Index layer = 0; layer < s.layers + 2 * s.reach; ++layer, occupant += s.layer_cells) {
+    s.layer_fill.push_back(static_cast<Index>(s.fill.size()));
+    for (Index cell = 0; cell < s.layer_cells;) {
+      FillRun run = filling(cell, occupant[cell]);
+      const Index per_cell = run.what == FillRun::What::nothing ? 0
+                             : run.what == FillRun::What::free  ? Dim
+                                                                : 1;
+      for (++cell; cell < s.layer_cells; ++cell, ++run.count) {
+        const FillRun next = filling(cell, occupant[cell]);
+        if (next.what != run.what || next.first != run.first + run.count * per_cell) break;
+      }
+      s.fill.push_back(run);
+    }
+  }
+  s.layer_fill.push_back(static_cast<Index>(s.fill.size()));
+}
+
+/// Calibration factors in the places of the padded grid; ghosts have those of their images.
+template <int Dim>
+void add_factors(Stencil<Dim>& s) {
+  const auto& factor = s.body->constants.factor;
+  if (factor.empty()) return;
+  const auto& occupant = s.bonds->occupant;
+  s.factor.assign(occupant.size() + stencil_slack, 0.0);
+  for (std::size_t cell = 0; cell < occupant.size(); ++cell) {
+    if (occupant[cell] != GridBonds<Dim>::absent)
+      s.factor[cell] = factor[owner(s.body->bonds, occupant[cell], s.body->count())];
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Stencil<Dim> make_stencil(const Body<Dim>& body) {
+  Stencil<Dim> s;
+  s.body = &body;
+  s.bonds = &std::get<GridBonds<Dim>>(body.bonds);
+  s.layers = Dim > 1 ? body.particles.grid->cells[Dim - 1] : 1;
+  s.reach = Dim > 1 ? s.bonds->reach : 0;
+  s.layer_cells = 1;
+  for (int a = 0; a < std::max(Dim - 1, 1); ++a) s.layer_cells *= s.bonds->padded[a];
+  // An odd number of cache lines, so that layers and components do not crowd the same sets.
+  s.stride = ((s.layer_cells + stencil_slack + 7) / 8 | 1) * 8;
+  add_pairs(s);
+  add_factors(s);
+  add_particle_runs(s);
+  add_fillings(s);
+  s.prepare(s.chunks());
+  return s;
+}
+
+template Stencil<1> make_stencil<1>(const Body<1>&);
+template Stencil<2> make_stencil<2>(const Body<2>&);
+template Stencil<3> make_stencil<3>(const Body<3>&);
+
+}  // namespace perimode

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "perimode/assembly/body.hpp"
+#include "support/models.hpp"
+
+namespace perimode::test {
+
+/// Uniform in [-1, 1].
+inline Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  return Eigen::VectorXd::NullaryExpr(size, [&] { return uniform(generator); });
+}
+
+/// sum_b k_b |n| (|n| . (|u_i| + |u_j|)): the sizes of the numbers each row sums, before they cancel.
+template <int Dim>
+Eigen::VectorXd sizes(const Body<Dim>& body, const Eigen::VectorXd& x) {
+  const auto& map = body.boundary;
+  const auto u = map.expand(x.data());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(x.size());
+  for (Index i = 0; i < body.count(); ++i) {
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Point<Dim> n = (end.xi / end.length).cwiseAbs();
+      double stretch = 0.0;
+      for (int a = 0; a < Dim; ++a) {
+        const std::size_t own = static_cast<std::size_t>(i) * Dim + a;
+        const auto g = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
+        const double other =
+            end.neighbour < body.count()
+                ? u[static_cast<std::size_t>(end.neighbour) * Dim + a]
+                : map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a];
+        stretch += n[a] * ((map.free_number[own] < 0 ? 0.0 : std::abs(u[own])) + std::abs(other));
+      }
+      for (int a = 0; a < Dim; ++a) {
+        const Index number = map.free_number[static_cast<std::size_t>(i) * Dim + a];
+        if (number >= 0) out[number] += bond_stiffness(body, i, end) * n[a] * stretch;
+      }
+    });
+  }
+  return out;
+}
+
+/// A stiff ball of another kernel, a block of the same material, a hole.
+inline Model of_blocks(const std::vector<int>& cells, Calibration calibration) {
+  Model m = box_model(cells, 1.0, 3.0);
+  Coordinates centre;
+  for (int n : cells) centre.push_back(n / 3.0);
+  m.blocks.push_back({"stiff", Region{BallRegion{centre, 3.0}, {}}});
+  for (double& c : centre) c += 5.0;
+  m.blocks.push_back({"same", Region{BallRegion{centre, 3.0}, {}}});
+  m.block_materials["stiff"] = m.material;
+  m.block_materials["stiff"].youngs_modulus = 7.0;
+  m.block_materials["stiff"].micromodulus.kernel = Kernel::gaussian;
+  std::get<GridSpec>(m.particles).remove.push_back(Region{BallRegion{{12.0, 3.0, 4.0}, 1.9}, {}});
+  m.calibration = calibration;
+  return m;
+}
+
+}  // namespace perimode::test
