@@ -33,6 +33,43 @@ template <int Dim>
   for (int a = 0; a < Dim; ++a) sum[a] = even[a] + odd[a];
 }
 
+/// In 2D two ends side by side fill a vector.
+template <>
+[[gnu::always_inline]] inline void sum_ends<2>(const double* b, const Index* neighbour, Offset ends,
+                                               const double* u, const double* here, double* sum) {
+  using Pair __attribute__((vector_size(2 * sizeof(double)), aligned(8), may_alias)) = double;
+  using Two __attribute__((vector_size(4 * sizeof(double)), aligned(8), may_alias)) = double;
+  const auto at = [&](Offset e) {
+    return *reinterpret_cast<const Pair*>(u + static_cast<Offset>(neighbour[e]) * 2);
+  };
+  const Two own = {here[0], here[1], here[0], here[1]};
+  Two total[2] = {};
+  const auto add = [&](Offset e, Two& to) {
+    const Pair first = at(e), second = at(e + 1);
+    const Two n = *reinterpret_cast<const Two*>(b + e * 2);
+    const Two part = n * (own - __builtin_shufflevector(first, second, 0, 1, 2, 3));
+    to += n * (part + __builtin_shufflevector(part, part, 1, 0, 3, 2));
+  };
+  Offset e = 0;
+  for (; e + 4 <= ends; e += 4) {
+    add(e, total[0]);
+    add(e + 2, total[1]);
+  }
+  if (e + 2 <= ends) {
+    add(e, total[0]);
+    e += 2;
+  }
+  const Two all = total[0] + total[1];
+  sum[0] = all[0] + all[2];
+  sum[1] = all[1] + all[3];
+  if (e < ends) {
+    const Pair other = at(e);
+    const double stretch = b[e * 2] * (here[0] - other[0]) + b[e * 2 + 1] * (here[1] - other[1]);
+    sum[0] += b[e * 2] * stretch;
+    sum[1] += b[e * 2 + 1] * stretch;
+  }
+}
+
 template <int Dim>
 [[gnu::always_inline]] inline void sum_particles(const BondForm<Dim>& form, const double* u, Index begin,
                                                  Index end, double* y) {
