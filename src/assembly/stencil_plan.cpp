@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -215,14 +216,13 @@ void add_fillings(Stencil<Dim>& s) {
     return FillRun{cell, 1, boundary.free_number[static_cast<std::size_t>(occupant) * Dim],
                    FillRun::What::free};
   };
+  constexpr std::array<Index, 4> step_per_cell = {0, Dim, 1, 1};  // of FillRun::first, by What
   const Index* occupant = s.bonds->occupant.data();
   for (Index layer = 0; layer < s.layers + 2 * s.reach; ++layer, occupant += s.layer_cells) {
     s.layer_fill.push_back(static_cast<Index>(s.fill.size()));
     for (Index cell = 0; cell < s.layer_cells;) {
       FillRun run = filling(cell, occupant[cell]);
-      const Index per_cell = run.what == FillRun::What::nothing ? 0
-                             : run.what == FillRun::What::free  ? Dim
-                                                                : 1;
+      const Index per_cell = step_per_cell[static_cast<std::size_t>(run.what)];
       for (++cell; cell < s.layer_cells; ++cell, ++run.count) {
         const FillRun next = filling(cell, occupant[cell]);
         if (next.what != run.what || next.first != run.first + run.count * per_cell) break;
