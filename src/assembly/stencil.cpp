@@ -87,18 +87,15 @@ void apply_layer(const Stencil<Dim>& s, Index layer, const double* here, typenam
     const ParticleRun& of = s.run[r];
     for (Index begin = 0; begin < of.count; begin += piece) {
       const Index particle = of.particle + begin;
-      const StencilRun run{
-          .at = work.at.data(),
-          .here = here,
-          .stride = s.stride,
-          .b = s.b.data() + static_cast<std::size_t>(of.set) * s.pair.size() * Dim,
-          .cell = of.cell + begin,
-          .count = std::min(piece, of.count - begin),
-          .missing = of.families == Families::edge ? s.missing.data() + of.missing + begin : nullptr,
-          .missing_stride = in_groups(of.count),
-          .out = work.out.data(),
-          .out_stride = piece + stencil_slack};
-      if (of.families == Families::whole || of.families == Families::edge) {
+      const StencilRun run{.at = work.at.data(),
+                           .here = here,
+                           .stride = s.stride,
+                           .b = s.b.data() + static_cast<std::size_t>(of.set) * s.pair.size() * Dim,
+                           .cell = of.cell + begin,
+                           .count = std::min(piece, of.count - begin),
+                           .out = work.out.data(),
+                           .out_stride = piece + stencil_slack};
+      if (of.families == Families::whole) {
         whole_families<Dim>(pairs, run);
       } else if (of.families == Families::partial) {
         partial_families<Dim>(
@@ -174,8 +171,7 @@ void Stencil<Dim>::apply(const double* x, double* y) {
 template <int Dim>
 double Stencil<Dim>::bytes() const {
   double sum = sizeof(*this) + bytes_of(pair) + bytes_of(pair_start) + bytes_of(b) + bytes_of(factor) +
-               bytes_of(missing) + bytes_of(run) + bytes_of(layer_run) + bytes_of(fill) +
-               bytes_of(layer_fill);
+               bytes_of(run) + bytes_of(layer_run) + bytes_of(fill) + bytes_of(layer_fill);
   for (const auto& w : work)
     sum += bytes_of(w.window) + bytes_of(w.layer) + bytes_of(w.at) + bytes_of(w.lanes) + bytes_of(w.out);
   return sum;

@@ -9,18 +9,17 @@
 namespace perimode {
 
 /// How the products of a run of particles are summed. whole: every family member there and alive, one
-/// stiffness. edge: so but for cells without particle. partial: bonds broken or scaled by different
-/// calibration factors, one material. mixed: several materials.
-enum class Families : std::uint8_t { whole, edge, partial, mixed };
+/// stiffness. partial: bonds missing, broken or scaled by different calibration factors, one material. mixed:
+/// several materials.
+enum class Families : std::uint8_t { whole, partial, mixed };
 
 /// Consecutive particles of one row of cells, their bonds summed alike.
 struct ParticleRun {
   Index cell = 0;      ///< of the first one within its layer of the padded grid
   Index particle = 0;  ///< first
   Index count = 0;
-  Index dof = -1;      ///< number of the first free dof where all are free; -1: by particle
-  Index set = 0;       ///< vectors b of the family
-  Offset missing = 0;  ///< edge: first entry in Stencil::missing
+  Index dof = -1;  ///< number of the first free dof where all are free; -1: by particle
+  Index set = 0;   ///< vectors b of the family
   Families families = Families::whole;
 };
 
@@ -47,7 +46,6 @@ struct Stencil {
   std::vector<int> pair_start;  ///< per pattern of components
   std::vector<double> b;        ///< sqrt(k_b) n per set, pair and component
   std::vector<double> factor;   ///< calibration factors over the padded grid; empty: all 1
-  std::vector<double> missing;  ///< of edge runs, StencilRun::missing
   std::vector<ParticleRun> run;
   std::vector<Index> layer_run;  ///< first run of each layer
   std::vector<FillRun> fill;

@@ -16,7 +16,7 @@ static_assert(stencil_slack == width);
 /// Adds the pairs whose offsets have the components of Pattern to y, for Groups * width particles.
 template <int Dim, int Pattern, int Groups>
 [[gnu::always_inline]] inline void add_whole_pairs(const StencilPairs& pairs, const StencilRun& run,
-                                                   std::ptrdiff_t t, const Vector (&twice)[Dim][Groups],
+                                                   std::ptrdiff_t t, const Vector (&here)[Dim][Groups],
                                                    Vector (&y)[Dim][Groups]) {
   for (int p = pairs.start[Pattern]; p < pairs.start[Pattern + 1]; ++p) {
     const double* up = run.at[pairs.member[p]] + run.cell + t;
@@ -26,9 +26,9 @@ template <int Dim, int Pattern, int Groups>
     for (int a = 0; a < Dim; ++a) {
       if ((Pattern >> a & 1) == 0) continue;
       for (int g = 0; g < Groups; ++g) {
-        const Vector sum = *reinterpret_cast<const Vector*>(up + a * run.stride + g * width) +
-                           *reinterpret_cast<const Vector*>(um + a * run.stride + g * width);
-        s[g] += b[a] * (twice[a][g] - sum);
+        const Vector plus = *reinterpret_cast<const Vector*>(up + a * run.stride + g * width);
+        const Vector minus = *reinterpret_cast<const Vector*>(um + a * run.stride + g * width);
+        s[g] += b[a] * ((here[a][g] - plus) + (here[a][g] - minus));
       }
     }
     for (int a = 0; a < Dim; ++a) {
@@ -38,38 +38,25 @@ template <int Dim, int Pattern, int Groups>
   }
 }
 
-template <int Dim, int Groups, bool Missing>
+template <int Dim, int Groups>
 [[gnu::always_inline]] inline void whole_group(const StencilPairs& pairs, const StencilRun& run,
                                                std::ptrdiff_t t) {
-  Vector twice[Dim][Groups];
+  Vector here[Dim][Groups];
   Vector y[Dim][Groups] = {};
   for (int a = 0; a < Dim; ++a) {
     for (int g = 0; g < Groups; ++g)
-      twice[a][g] =
-          2.0 * *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t + g * width);
+      here[a][g] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t + g * width);
   }
-  add_whole_pairs<Dim, 1, Groups>(pairs, run, t, twice, y);
+  add_whole_pairs<Dim, 1, Groups>(pairs, run, t, here, y);
   if constexpr (Dim > 1) {
-    add_whole_pairs<Dim, 2, Groups>(pairs, run, t, twice, y);
-    add_whole_pairs<Dim, 3, Groups>(pairs, run, t, twice, y);
+    add_whole_pairs<Dim, 2, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 3, Groups>(pairs, run, t, here, y);
   }
   if constexpr (Dim > 2) {
-    add_whole_pairs<Dim, 4, Groups>(pairs, run, t, twice, y);
-    add_whole_pairs<Dim, 5, Groups>(pairs, run, t, twice, y);
-    add_whole_pairs<Dim, 6, Groups>(pairs, run, t, twice, y);
-    add_whole_pairs<Dim, 7, Groups>(pairs, run, t, twice, y);
-  }
-  if constexpr (Missing) {
-    const double* entry = run.missing + t;
-    for (int a = 0; a < Dim; ++a) {
-      for (int b = a; b < Dim; ++b, entry += run.missing_stride) {
-        for (int g = 0; g < Groups; ++g) {
-          const Vector m = *reinterpret_cast<const Vector*>(entry + g * width);
-          y[a][g] -= m * twice[b][g];
-          if (b != a) y[b][g] -= m * twice[a][g];
-        }
-      }
-    }
+    add_whole_pairs<Dim, 4, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 5, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 6, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 7, Groups>(pairs, run, t, here, y);
   }
   for (int a = 0; a < Dim; ++a) {
     for (int g = 0; g < Groups; ++g)
@@ -77,19 +64,11 @@ template <int Dim, int Groups, bool Missing>
   }
 }
 
-template <int Dim, bool Missing>
-[[gnu::always_inline]] inline void whole_groups(const StencilPairs& pairs, const StencilRun& run) {
-  Index t = 0;
-  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2, Missing>(pairs, run, t);
-  if (t < run.count) whole_group<Dim, 1, Missing>(pairs, run, t);
-}
-
 template <int Dim>
 [[gnu::always_inline]] inline void whole(const StencilPairs& pairs, const StencilRun& run) {
-  if (run.missing != nullptr)
-    whole_groups<Dim, true>(pairs, run);
-  else
-    whole_groups<Dim, false>(pairs, run);
+  Index t = 0;
+  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2>(pairs, run, t);
+  if (t < run.count) whole_group<Dim, 1>(pairs, run, t);
 }
 
 /// Weight per lane of the bond to a family member: 0 where it is not alive, (f_i + f_j) / 2 where it is.

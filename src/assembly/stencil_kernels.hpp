@@ -29,11 +29,8 @@ struct StencilRun {
   const double* here;       ///< x component at the layer's cell 0
   std::ptrdiff_t stride;
   const double* b;
-  Index cell;             ///< of particle 0 of the run in its layer
-  Index count;            ///< particles
-  const double* missing;  ///< half of the sum of b b^T of the cells around that hold no particle, the entries
-                          ///< on and above the diagonal missing_stride apart; null: there are none
-  std::ptrdiff_t missing_stride;
+  Index cell;   ///< of particle 0 of the run in its layer
+  Index count;  ///< particles
   double* out;  ///< K u; component a at a * out_stride
   std::ptrdiff_t out_stride;
 };
@@ -48,8 +45,8 @@ struct StencilBits {
   const Index* step;     ///< cells to each family member
 };
 
-/// K u of particles whose bonds all are alive: sum over pairs of b (b . (2 u_i - u_+ - u_-)), with u = 0 in
-/// cells without particle, whose b b^T u_i is taken back.
+/// K u of particles with whole families: sum over pairs of b (b . ((u_i - u_+) + (u_i - u_-))). Differences
+/// first: they are exact where the displacement is large and smooth, as in slender bodies.
 template <int Dim>
 void whole_families(const StencilPairs& pairs, const StencilRun& run);
 

@@ -14,17 +14,13 @@ namespace perimode {
 namespace {
 
 constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
-/// Share of its family, per component, from which a particle counts as an edge: it bounds the round-off of
-/// what is taken back.
-constexpr double least_edge = 0.125;
 
 /// What decides how a particle's bonds are summed.
 template <int Dim>
 struct Classes {
   const Body<Dim>& body;
   const GridBonds<Dim>& bonds;
-  std::vector<int> material;              ///< per block: the first block of the same micromoduli
-  Point<Dim> whole = Point<Dim>::Zero();  ///< sum of n_a^2 over the family
+  std::vector<int> material;  ///< per block: the first block of the same micromoduli
 
   explicit Classes(const Body<Dim>& of) : body(of), bonds(std::get<GridBonds<Dim>>(of.bonds)) {
     const auto& kernel = body.constants.kernel;
@@ -35,7 +31,6 @@ struct Classes {
       while (!std::equal(mine, mine + size, kernel.begin() + static_cast<std::ptrdiff_t>(j) * size)) ++j;
       material.push_back(static_cast<int>(j));
     }
-    for (int k = 0; k < bonds.family.size(); ++k) whole += square(k);
   }
 
   [[nodiscard]] double factor(Index i) const {
@@ -49,50 +44,32 @@ struct Classes {
   }
 
   [[nodiscard]] Families families(Index i) const {
-    const bool plain = body.density.size() == 1 && body.constants.factor.empty();
     const int size = bonds.family.size();
     int ends = 0;
     for (int w = 0; w < bonds.words; ++w)
       ends += std::popcount(bonds.alive[static_cast<std::size_t>(i) * bonds.words + w]);
-    if (plain && ends == size) return Families::whole;
-    int cells = 0;
     bool one_factor = true;
     bool one_material = true;
-    Point<Dim> share = Point<Dim>::Zero();  // sum of n_a^2 per component
-    const Index* here = bonds.occupant.data() + bonds.home[i];
-    for (int k = 0; k < size; ++k) {
-      const Index partner = here[bonds.step[k]];
-      cells += partner != GridBonds<Dim>::absent ? 1 : 0;
-      if (!is_alive(bonds, i, k)) continue;
-      share += square(k);
-      if (plain) continue;
-      const Index j = owner(body.bonds, partner, body.count());
-      one_factor = one_factor && factor(i) == factor(j);
-      one_material = one_material && !differ(i, j);
+    if (body.density.size() > 1 || !body.constants.factor.empty()) {
+      for_each_bond(bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+        const Index j = owner(body.bonds, end.neighbour, body.count());
+        one_factor = one_factor && factor(i) == factor(j);
+        one_material = one_material && !differ(i, j);
+      });
     }
     if (!one_material) return Families::mixed;
-    if (!one_factor || ends < cells) return Families::partial;
-    if (ends == size) return Families::whole;
-    return (share.array() < least_edge * whole.array()).any() ? Families::partial : Families::edge;
-  }
-
-  /// n_a^2 of a member of the family.
-  [[nodiscard]] Point<Dim> square(int member) const {
-    Point<Dim> n;
-    for (int a = 0; a < Dim; ++a)
-      n[a] = bonds.family.spacing * bonds.family.offset[member][a] / bonds.family.length[member];
-    return n.cwiseAbs2();
+    return one_factor && ends == size ? Families::whole : Families::partial;
   }
 };
 
-/// Edge and partial families fill the kernels' groups with whole ones from beside them: a group costs the
-/// same however many particles it holds. All of one row, with the same dofs and material.
+/// Partial families fill the kernels' groups with whole ones from beside them: a group costs the same however
+/// many particles it holds. All of one row, with the same dofs and material.
 template <class Iterator>
 void round_to_groups(Iterator begin, Iterator end) {
   for (auto first = begin; first != end;) {
     const Families kind = *first;
     auto last = std::find_if(first, end, [&](Families f) { return f != kind; });
-    if (kind == Families::edge || kind == Families::partial) {
+    if (kind == Families::partial) {
       auto spare = in_groups(static_cast<Index>(last - first)) - static_cast<Index>(last - first);
       for (; spare > 0 && last != end && *last == Families::whole; --spare) *last++ = kind;
       for (; spare > 0 && first != begin && *(first - 1) == Families::whole; --spare) *--first = kind;
@@ -130,29 +107,6 @@ Index add_set(Stencil<Dim>& s, int block, double factor) {
   return number;
 }
 
-/// Half of the sum of b b^T over the cells around each particle of an edge run that hold none.
-template <int Dim>
-void add_missing(Stencil<Dim>& s, ParticleRun& run) {
-  const Index stride = in_groups(run.count);
-  run.missing = static_cast<Offset>(s.missing.size());
-  s.missing.resize(s.missing.size() + static_cast<std::size_t>(stride) * Dim * (Dim + 1) / 2, 0.0);
-  const double* set = s.b.data() + static_cast<std::size_t>(run.set) * s.pair.size() * Dim;
-  for (std::size_t p = 0; p < s.pair.size(); ++p) {
-    const double* b = set + p * Dim;
-    const Index step = s.bonds->step[s.pair[p]];  // of the opposite member: -step
-    for (Index t = 0; t < run.count; ++t) {
-      const Index* here = s.bonds->occupant.data() + s.bonds->home[run.particle + t];
-      const double half = 0.5 * static_cast<double>((here[step] == GridBonds<Dim>::absent ? 1 : 0) +
-                                                    (here[-step] == GridBonds<Dim>::absent ? 1 : 0));
-      if (half == 0.0) continue;
-      double* entry = s.missing.data() + run.missing + t;
-      for (int a = 0; a < Dim; ++a) {
-        for (int c = a; c < Dim; ++c, entry += stride) *entry += half * (b[a] * b[c]);
-      }
-    }
-  }
-}
-
 /// Free dofs of a particle: all, some or none.
 enum class Dofs { all, some, none };
 
@@ -176,9 +130,8 @@ void add_particle_runs(Stencil<Dim>& s) {
 
   std::map<std::pair<int, double>, Index> sets;  // by material and factor
   const auto set_of = [&](Index i) {
-    const std::pair key(
-        classes.material[body.particles.block[i]],
-        families[i] == Families::whole || families[i] == Families::edge ? classes.factor(i) : 1.0);
+    const std::pair key(classes.material[body.particles.block[i]],
+                        families[i] == Families::whole ? classes.factor(i) : 1.0);
     const auto [at, fresh] = sets.emplace(key, 0);
     if (fresh) at->second = add_set(s, key.first, key.second);
     return at->second;
@@ -194,10 +147,9 @@ void add_particle_runs(Stencil<Dim>& s) {
     if (dofs == Dofs::none) continue;
     round_to_groups(families.begin() + first, families.begin() + last);
     for (Index i = first; i < last;) {
-      ParticleRun run{home[i] % s.layer_cells, i, 1, -1, set_of(i), 0, families[i]};
+      ParticleRun run{home[i] % s.layer_cells, i, 1, -1, set_of(i), families[i]};
       if (dofs == Dofs::all) run.dof = body.boundary.free_number[static_cast<std::size_t>(i) * Dim];
       for (++i; i < last && families[i] == run.families && set_of(i) == run.set; ++i) ++run.count;
-      if (run.families == Families::edge) add_missing(s, run);
       s.run.push_back(run);
       ++s.layer_run[home[first] / s.layer_cells - s.reach + 1];
     }

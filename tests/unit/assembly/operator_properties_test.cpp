@@ -28,13 +28,12 @@ TEST(Operators, TranslationsGiveNoForce) {
     return multiply(stiffness_operator(body, form), shift).cwiseAbs().maxCoeff();
   };
   Model m = box_model({25, 21}, 0.1, 3.0);
-  // Sums of differences vanish exactly; what the stencil takes back at edges does to round-off: diagonal
-  // entries of K are below 10 here.
-  EXPECT_EQ(force(m, StiffnessForm::bonds), 0.0);
-  EXPECT_LE(force(m, StiffnessForm::stencil), 1e-14);
-  EXPECT_LE(force(m, StiffnessForm::blocks), 1e-13);
-  m.calibration = Calibration::discrete;  // no edges: factors vary there
-  EXPECT_EQ(force(m, StiffnessForm::stencil), 0.0);
+  for (auto calibration : {Calibration::continuum, Calibration::discrete}) {
+    m.calibration = calibration;
+    EXPECT_EQ(force(m, StiffnessForm::bonds), 0.0);  // sums of differences
+    EXPECT_EQ(force(m, StiffnessForm::stencil), 0.0);
+    EXPECT_LE(force(m, StiffnessForm::blocks), 1e-13);  // diagonal entries of K are below 10
+  }
   m.periodic = {true, true, false};
   EXPECT_EQ(force(m, StiffnessForm::stencil), 0.0);
 }
