@@ -74,8 +74,9 @@ std::string usage_error(const CLI::App& app, int argc, char** argv, std::string 
     const bool known = std::any_of(subcommands.begin(), subcommands.end(),
                                    [&](const auto* s) { return s->get_name() == word; });
     if (!known) {
-      std::vector<std::string> names;
-      for (const auto* s : subcommands) names.push_back(s->get_name());
+      std::vector<std::string> names(subcommands.size());
+      std::transform(subcommands.begin(), subcommands.end(), names.begin(),
+                     [](const auto* s) { return s->get_name(); });
       what = fmt::format("expected one of the commands {}, got '{}'", fmt::join(names, ", "), word);
     }
     break;

@@ -8,7 +8,7 @@ namespace {
 Region read_traction_face(const Section& section, const BodyFacts& facts) {
   const char* example = facts.grid ? "{ face: y+, layers: 1 }" : "{ face: y+, depth: 0.01 }";
   const Cursor cursor = section.need("at", example);
-  const Region at = read_region(cursor, facts);
+  Region at = read_region(cursor, facts);
   if (!std::holds_alternative<FaceRegion>(at.shape)) {
     cursor.complain("a face for a traction", std::string("for example ") + example +
                                                  ", or give a body_force (N/m3) or a force (N) instead");

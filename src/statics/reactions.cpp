@@ -59,6 +59,7 @@ std::vector<std::size_t> owners(const Body<Dim>& body, const std::vector<Boundar
     if (const auto* fix = std::get_if<Fix>(&conditions[c].what)) take(c, fix->at, fix->components);
     if (const auto* prescribe = std::get_if<Prescribe>(&conditions[c].what)) {
       std::vector<int> components;
+      components.reserve(prescribe->components.size());
       for (const auto& [a, value] : prescribe->components) components.push_back(a);
       take(c, prescribe->at, components);
     }

@@ -9,7 +9,7 @@
 namespace perimode::test {
 
 /// Kirsch's solution: an infinite sheet of E = 1 in plane stress (nu = 1/3) with a hole of radius `a` at the
-/// origin, pulled along x by the far stress S = 1. [timoshenko_goodier1970], section 35.
+/// origin, pulled along x by the far stress S = 1. [kirsch1898], docs/theory/09_static.md eq. (6).
 struct Kirsch {
   double a = 0.25;
 
