@@ -26,4 +26,5 @@ install(FILES ${find_modules}
   "${CMAKE_CURRENT_BINARY_DIR}/perimode-config.cmake"
   "${CMAKE_CURRENT_BINARY_DIR}/perimode-config-version.cmake"
   DESTINATION "${perimode_package_dir}")
+install(FILES docs/case.schema.json DESTINATION "${CMAKE_INSTALL_DATADIR}/perimode")
 install(FILES LICENSE DESTINATION "${CMAKE_INSTALL_DOCDIR}")
