@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transfer.hpp"
 
+#include <algorithm>
+
 #include "linalg/vector_kernels.hpp"
 
 namespace perimode {
@@ -133,11 +135,13 @@ Transfer<Dim>::Transfer(const Body<Dim>& fine, const Body<Dim>& coarse) : fine_(
 
   frame_.assign(static_cast<std::size_t>(frame) * Dim, 0.0);
   frame_cell_.resize(coarse.count());
+  std::vector<Index> coarse_at(frame, GridBonds<Dim>::absent);
   for (Index i = 0; i < coarse.count(); ++i) {
     const auto cell = coarse.particles.grid->cell(coarse.particles.cell[i]);
     Index at = 0;
     for (int a = 0; a < Dim; ++a) at += stride[a] * (cell[a] + 1);
     frame_cell_[i] = at;
+    coarse_at[at] = i;
   }
   for (Index at = 0; at < frame; ++at) {
     Index padded = 0;
@@ -169,15 +173,69 @@ Transfer<Dim>::Transfer(const Body<Dim>& fine, const Body<Dim>& coarse) : fine_(
     for (Index i = first_in_row_[row]; i < first_in_row_[row + 1]; ++i)
       scale_[i] = 1.0 / values[(fine_.particles.cell[i] % cells_[0]) * Dim];
   });
+  find_parted(coarse_at);
   std::fill(frame_.begin(), frame_.end(), 0.0);
   gather_.resize(frame_.size());
   dense_.assign(static_cast<std::size_t>(rows_) * width_, 0.0);
 }
 
 template <int Dim>
+void Transfer<Dim>::find_parted(const std::vector<Index>& coarse_at) {
+  constexpr int corners = 1 << Dim;
+  const auto& bonds = std::get<GridBonds<Dim>>(coarse_.bonds);
+  const auto& offsets = bonds.family.offset;
+  std::array<std::array<int, corners>, corners>
+      slot;  // of the step to a corner, by the place among the children
+  for (int place = 0; place < corners; ++place) {
+    for (int corner = 0; corner < corners; ++corner) {
+      std::array<int, Dim> step;
+      for (int a = 0; a < Dim; ++a) step[a] = (corner >> a) % 2 == 0 ? 0 : 2 * ((place >> a) % 2) - 1;
+      const auto found = std::find(offsets.begin(), offsets.end(), step);
+      slot[place][corner] = found == offsets.end() ? -1 : static_cast<int>(found - offsets.begin());
+    }
+  }
+  for (Index i = 0; i < fine_.count(); ++i) {
+    const auto cell = fine_.particles.grid->cell(fine_.particles.cell[i]);
+    int place = 0;
+    Index parent = 0;
+    std::array<Index, Dim> step;
+    Index stride = 1;
+    for (int a = 0; a < Dim; ++a) {
+      place |= (cell[a] % 2) << a;
+      parent += stride * (cell[a] / 2 + 1);
+      step[a] = cell[a] % 2 == 0 ? -stride : stride;
+      stride *= frame_cells_[a];
+    }
+    const Index home = coarse_at[parent];
+    Parted p{i, {}, {}};
+    double sum = 0.0;
+    bool parted = false;
+    for (int corner = 0; corner < corners; ++corner) {
+      p.cell[corner] = parent;
+      p.weight[corner] = 1.0;
+      for (int a = 0; a < Dim; ++a) {
+        const bool aside = (corner >> a) % 2 == 1;
+        p.cell[corner] += aside ? step[a] : 0;
+        p.weight[corner] *= aside ? 0.25 : 0.75;
+      }
+      const int k = slot[place][corner];
+      const bool broken = k >= 0 && !is_alive(bonds, home, k);
+      const bool there = frame_[static_cast<std::size_t>(p.cell[corner]) * Dim] != 0.0;
+      parted = parted || (broken && there);
+      if (broken || !there) p.weight[corner] = 0.0;
+      sum += p.weight[corner];
+    }
+    if (!parted) continue;
+    for (double& w : p.weight) w /= sum;
+    scale_[i] = 0.0;
+    parted_.push_back(p);
+  }
+}
+
+template <int Dim>
 double Transfer<Dim>::bytes() const {
   return static_cast<double>((first_in_row_.size() + frame_cell_.size()) * sizeof(Index) + plain_row_.size() +
-                             echoes_.size() * sizeof(Echo) +
+                             echoes_.size() * sizeof(Echo) + parted_.size() * sizeof(Parted) +
                              (scale_.size() + frame_.size() + gather_.size() + dense_.size()) *
                                  sizeof(double));
 }
@@ -251,6 +309,14 @@ void Transfer<Dim>::add_prolonged(const double* coarse, double* x) {
       }
     }
   });
+  for (const Parted& p : parted_) {
+    for (int a = 0; a < Dim; ++a) {
+      const Index free = number[static_cast<std::size_t>(p.particle) * Dim + a];
+      if (free < 0) continue;
+      for (std::size_t c = 0; c < p.cell.size(); ++c)
+        x[free] += p.weight[c] * frame_[static_cast<std::size_t>(p.cell[c]) * Dim + a];
+    }
+  }
 }
 
 template <int Dim>
@@ -298,6 +364,14 @@ void Transfer<Dim>::restrict_difference(const double* b, const double* q, double
           });
       if (first) std::fill(middle, middle + width_, 0.0);
       narrow_row(Dim, frame_cells_[0], middle, gather_.data() + static_cast<std::size_t>(row) * frame_width);
+    }
+  }
+  for (const Parted& p : parted_) {
+    for (int a = 0; a < Dim; ++a) {
+      const Index free = number[static_cast<std::size_t>(p.particle) * Dim + a];
+      if (free < 0) continue;
+      for (std::size_t c = 0; c < p.cell.size(); ++c)
+        gather_[static_cast<std::size_t>(p.cell[c]) * Dim + a] += p.weight[c] * (b[free] - q[free]);
     }
   }
   for (const Echo& echo : echoes_) {

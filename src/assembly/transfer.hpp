@@ -11,7 +11,8 @@ namespace perimode {
 /// Displacements between the free dofs of a grid body and of its coarse one (coarsen), cell-centred and
 /// linear per axis: a fine cell takes 3/4 from its parent and 1/4 from the parent's neighbour on its side.
 /// Beyond faces stand the ghosts and periodic images of the coarse body, fixed dofs count as 0, absent cells
-/// not at all: the weights of those that are there are scaled to the sum 1. Not for two threads at a time.
+/// not at all, nor cells whose bond to the parent is broken: the weights of the others are scaled to the
+/// sum 1. Not for two threads at a time.
 template <int Dim>
 class Transfer {
  public:
@@ -34,6 +35,15 @@ class Transfer {
     std::array<double, Dim> coefficient;
   };
 
+  /// A fine particle that a crack parts from some of the coarse cells around it, and its weights of the
+  /// others.
+  struct Parted {
+    Index particle;
+    std::array<Index, 1 << Dim> cell;
+    std::array<double, 1 << Dim> weight;
+  };
+
+  void find_parted(const std::vector<Index>& coarse_at);
   void spread(const double* coarse);
   /// use(first particle, row of interpolated values of its row's cells) for every fine row, in parallel.
   template <class Use>
@@ -51,6 +61,7 @@ class Transfer {
   std::vector<double> scale_;      ///< per fine particle: 1 / sum of the weights of the cells that are there
   std::vector<Index> frame_cell_;  ///< of each coarse particle
   std::vector<Echo> echoes_;
+  std::vector<Parted> parted_;  ///< their scale_ is 0
   std::vector<double> frame_;   ///< coarse values in the frame, 0 where nothing is
   std::vector<double> gather_;  ///< the same for restriction
   std::vector<double> dense_;   ///< fine residuals by cell
