@@ -7,6 +7,7 @@
 
 #include <cstdlib>
 #include <ctime>
+#include <numeric>
 #include <string>
 
 #include "perimode/assembly/multigrid.hpp"
@@ -26,8 +27,8 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 template <int Dim>
 perimode::Body<Dim> cantilever(int n) {
   perimode::Model m = perimode::test::box_model(std::vector<int>(Dim, n), 1.0 / n, 3.0);
-  std::vector<int> all;
-  for (int a = 0; a < Dim; ++a) all.push_back(a);
+  std::vector<int> all(Dim);
+  std::iota(all.begin(), all.end(), 0);
   perimode::test::fix_face(m, 0, false, 3, all);
   return perimode::build_body<Dim>(m);
 }
