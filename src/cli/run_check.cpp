@@ -36,12 +36,14 @@ int check_static(const Case& input, Console& console) {
 template <int Dim>
 int check(const Case& input, Console& console) {
   if (input.statics && !input.modal) return check_static<Dim>(input, console);
-  refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
+  refuse_if_too_large(least_memory(input.model), "the body");
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
   const ModalPlan plan = [&] {
     try {
-      return plan_modes(body, input.modal.value_or(ModalOptions{}));
+      ModalOptions options = input.modal.value_or(ModalOptions{});
+      options.memory_limit = 0.9 * available_memory();
+      return plan_modes(body, options);
     } catch (const Error& error) {
       throw at(error, input.modal_where);
     }
@@ -53,8 +55,11 @@ int check(const Case& input, Console& console) {
   fmt::print("\nbonds            {}", plan.bonds);
   if (plan.cut > 0) fmt::print("  ({} cut by pre-cracks)", plan.cut);
   fmt::print("\ndofs             {}\n", plan.dofs);
-  fmt::print("nonzeros of K    {}  ({})\n", plan.nonzeros,
-             plan.asymmetry <= 1e-12 ? "symmetric" : fmt::format("not symmetric, {:.1e}", plan.asymmetry));
+  const std::string symmetry =
+      plan.asymmetry <= 1e-12 ? "symmetric" : fmt::format("not symmetric, {:.1e}", plan.asymmetry);
+  fmt::print("stiffness        {}\n", plan.nonzeros > 0
+                                          ? fmt::format("{} nonzeros, {}", plan.nonzeros, symmetry)
+                                          : symmetry + ", not assembled");
   if (plan.fill.nonzeros > 0) {
     fmt::print("factor           {} nonzeros, {:.3g} GFlop, {}\n", plan.fill.nonzeros, plan.fill.flops * 1e-9,
                bytes_text(plan.fill.factor_bytes));

@@ -73,12 +73,14 @@ template <int Dim>
 ModalResult solve_checked(const Body<Dim>& body, const Case& input, const Sink& sink) {
   try {
     check_request(body.boundary.free, *input.modal);
-    // The exact prediction costs an ordering; it is made where a factor could come near the memory there is.
-    if (25.0 * least_memory(input.model) > available_memory()) {
+    ModalOptions options = *input.modal;
+    options.memory_limit = 0.9 * available_memory();
+    // The exact prediction may cost an assembly and an ordering; it is made where memory could run short.
+    if (3.0 * rough_memory(body, options) > available_memory()) {
       sink.report("predicting memory");
-      refuse_if_too_large(plan_modes(body, *input.modal).memory_bytes, "these modes");
+      refuse_if_too_large(plan_modes(body, options).memory_bytes, "these modes");
     }
-    return solve_modes(body, *input.modal, sink);
+    return solve_modes(body, options, sink);
   } catch (const Error& error) {
     throw error.kind() == ErrorKind::invalid_input ? at(error, input.modal_where) : error;
   }
@@ -88,7 +90,7 @@ template <int Dim>
 int run(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const ModalOptions options = *input.modal;
-  refuse_if_too_large(least_memory(input.model), "the body and its stiffness");
+  refuse_if_too_large(least_memory(input.model), "the body");
   ResultDirectory folder(arguments.output.value_or(input.output.directory), arguments.force);
   set_unfinished_result(folder.unfinished());
 
@@ -109,6 +111,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   summary["nonzeros"] = result.nonzeros;
   summary["factor_nonzeros"] = result.factor_nonzeros;
   summary["solver"] = result.solver;
+  summary["reason"] = result.choice.reason;
   summary["status"] = status_text(result.status);
   summary["message"] = result.message;
   summary["symmetric"] = result.left.cols() == 0;
@@ -117,6 +120,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   summary["rigid_modes"] = result.rigid_modes;
   summary["mechanisms"] = result.mechanisms;
   summary["solves"] = result.solves;
+  summary["products"] = result.products;
   summary["certificate"] = certificate_json(result);
   add_run(summary, {{"body", seconds_body},
                     {"assemble", result.seconds_assemble},

@@ -39,6 +39,8 @@ ModalOptions read_modal(const Cursor& cursor) {
                                                   {"lanczos", ModalSolver::lanczos},
                                                   {"arpack", ModalSolver::arpack},
                                                   {"dense", ModalSolver::dense},
+                                                  {"chebyshev", ModalSolver::chebyshev},
+                                                  {"inverse", ModalSolver::inverse},
                                                   {"slepc", ModalSolver::slepc}});
   }
   if (const auto certificate = modal.find("certificate")) {

@@ -21,7 +21,7 @@ void project_out(const Eigen::MatrixXd& deflated, Eigen::Ref<Eigen::MatrixXd> x)
 
 /// Implicitly restarted Lanczos for the `count` largest |theta| of P Op P, P = I - deflated deflated^T,
 /// to machine precision. Columns in the order ARPACK returns them; fewer if it stopped early.
-Eigen::MatrixXd largest_vectors(ShiftInvert& op, const Eigen::MatrixXd& deflated, int count,
+Eigen::MatrixXd largest_vectors(SpectralTransform& op, const Eigen::MatrixXd& deflated, int count,
                                 const SearchSettings& settings) {
   const auto n = static_cast<a_int>(op.size());
   const a_int columns = std::min<a_int>(n, std::max(2 * count + 1, 60));
@@ -59,8 +59,8 @@ Eigen::MatrixXd largest_vectors(ShiftInvert& op, const Eigen::MatrixXd& deflated
 
 /// The `count` largest pairs, whether or not a gap follows them, and the Ritz vectors beyond `wanted`
 /// and its cluster.
-EigenPairs largest_pairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, int count, Eigen::Index wanted,
-                         const SearchSettings& settings) {
+EigenPairs largest_pairs(SpectralTransform& op, const Eigen::MatrixXd& deflated, int count,
+                         Eigen::Index wanted, const SearchSettings& settings) {
   EigenPairs out;
   const Eigen::MatrixXd vector = largest_vectors(op, deflated, count, settings);
   out.vector = Eigen::MatrixXd(op.size(), 0);
@@ -100,7 +100,7 @@ EigenPairs largest_pairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, int c
 
 }  // namespace
 
-EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
+EigenPairs arpack(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
                   const Wanted& wanted, const SearchSettings& settings) {
   const Eigen::Index room = op.size() - deflated.cols();
   // A few more than wanted, until the gap behind the last cluster comes into sight.

@@ -19,7 +19,7 @@ Eigen::MatrixXd random_columns(Eigen::Index rows, Eigen::Index count, std::mt199
   return out;
 }
 
-BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
+BlockKrylov::BlockKrylov(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
                          int block, int most_columns, std::uint64_t seed)
     : op_(op),
       deflated_(deflated),
@@ -38,7 +38,7 @@ BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
   (void)take_in(first, 0, 1.0);
 }
 
-BlockKrylov::BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held,
+BlockKrylov::BlockKrylov(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held,
                          int extra, int more_columns, std::uint64_t seed)
     : op_(op),
       deflated_(deflated),

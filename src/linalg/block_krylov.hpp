@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <random>
 
-#include "shift_invert.hpp"
+#include "spectral_transform.hpp"
 
 namespace perimode {
 
@@ -26,11 +26,11 @@ struct Neighbourhood {
 class BlockKrylov {
  public:
   /// `start` (n x s, any columns, may be empty) is filled up with random columns to `block`.
-  BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start, int block,
+  BlockKrylov(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start, int block,
               int most_columns, std::uint64_t seed);
 
   /// Goes on from `held` with `extra` random columns beside its newest block.
-  BlockKrylov(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held, int extra,
+  BlockKrylov(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Neighbourhood& held, int extra,
               int more_columns, std::uint64_t seed);
 
   /// Applies Op to the newest block and takes in what is new. False when the space is used up:
@@ -72,7 +72,7 @@ class BlockKrylov {
   Eigen::MatrixXd take_in(const Eigen::MatrixXd& fresh, Eigen::Index used, double scale);
   void project_out(Eigen::Ref<Eigen::MatrixXd> fresh, Eigen::Index used) const;
 
-  ShiftInvert& op_;
+  SpectralTransform& op_;
   const Eigen::MatrixXd& deflated_;
   int block_;
   int most_columns_;

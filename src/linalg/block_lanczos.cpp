@@ -15,7 +15,7 @@ struct Verdict {
   double next = 0.0;
 };
 
-Verdict judge(const BlockKrylov& space, const BlockKrylov::Ritz& ritz, const ShiftInvert& op,
+Verdict judge(const BlockKrylov& space, const BlockKrylov::Ritz& ritz, const SpectralTransform& op,
               const Wanted& wanted, double tolerance) {
   const Eigen::Index columns = ritz.theta.size();
   const auto size = [&](Eigen::Index i) { return std::abs(ritz.theta[i]); };
@@ -48,27 +48,31 @@ Verdict judge(const BlockKrylov& space, const BlockKrylov::Ritz& ritz, const Shi
 }
 
 /// Basis size at which the iteration restarts; about what 20 to 60 modes need without a restart.
-int most_columns(const Wanted& wanted, int block, Eigen::Index n) {
-  const Eigen::Index columns = std::max<Eigen::Index>(2 * wanted.count + 10 * block, 140);
+int most_columns(const Wanted& wanted, const SearchSettings& settings, int block, Eigen::Index n) {
+  const Eigen::Index columns =
+      settings.columns > 0 ? settings.columns : std::max<Eigen::Index>(2 * wanted.count + 10 * block, 140);
   return static_cast<int>(std::min(columns, n + 2 * block));
 }
 
 }  // namespace
 
-bool same_cluster(const ShiftInvert& op, double theta, double other) {
-  const double a = std::abs(1.0 / theta), b = std::abs(1.0 / other);
+bool same_cluster(const SpectralTransform& op, double theta, double other) {
+  const double a = op.distance(theta), b = op.distance(other);
   return std::abs(a - b) <= 1e-6 * std::max(a, b) + 1e-9 * std::abs(op.sigma);
 }
 
-bool is_converged(const ShiftInvert& op, double theta, double residual, double largest, double tolerance) {
-  const double distance = 1.0 / std::abs(theta);
+bool is_converged(const SpectralTransform& op, double theta, double residual, double largest,
+                  double tolerance) {
   const double scale =
-      std::max(std::abs(op.eigenvalue(theta)), 1e-3 * distance);  // lambda near 0: a mechanism
-  constexpr double round_off = 5e-15;
-  return residual <= std::max(tolerance * scale * theta * theta, round_off * largest);
+      std::max(std::abs(op.eigenvalue(theta)), 1e-3 * op.distance(theta));  // lambda near 0: a mechanism
+  double wanted = tolerance * scale * op.slope(theta);
+  // A rough part e of the vector is theta e in the residual, and up to top e in that of A.
+  constexpr double rough = 10.0;
+  if (op.top > 0.0) wanted = std::min(wanted, rough * tolerance * scale * theta / op.top);
+  return residual <= std::max(wanted, op.round_off * largest);
 }
 
-EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
+EigenPairs block_lanczos(SpectralTransform& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
                          const Wanted& wanted, const SearchSettings& settings) {
   const Eigen::Index room = op.size() - deflated.cols();
   EigenPairs out;
@@ -78,14 +82,15 @@ EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated, const
     return out;
   }
   const int block = static_cast<int>(std::min<Eigen::Index>(settings.block, room));
-  BlockKrylov space(op, deflated, start, block, most_columns(wanted, block, room), settings.seed);
+  BlockKrylov space(op, deflated, start, block, most_columns(wanted, settings, block, room), settings.seed);
   for (;;) {
     const bool more = space.step();
     if (more && space.columns() < wanted.count && !space.full()) continue;
     const BlockKrylov::Ritz ritz = space.ritz();
     const Verdict verdict = judge(space, ritz, op, wanted, settings.tolerance);
     out.converged = verdict.done;
-    if (verdict.done || !more || out.restarts == settings.most_restarts) {
+    const bool given_up = !verdict.done && settings.give_up && settings.give_up(ritz.theta);
+    if (verdict.done || !more || given_up || out.restarts == settings.most_restarts) {
       const Eigen::Index count = std::min<Eigen::Index>(verdict.count, ritz.theta.size());
       out.theta = ritz.theta.head(count);
       out.vector = space.purified(ritz, count);

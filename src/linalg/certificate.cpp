@@ -14,7 +14,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Does a probe find nothing? It may need more than one attempt to decide.
-bool clean(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
+bool clean(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
            std::uint64_t seed) {
   constexpr int most_attempts = 10;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
@@ -39,14 +39,14 @@ Certificate certify_by_inertia(const EigenProblem& problem, double at, Offset ex
   return out;
 }
 
-Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood held,
+Certificate certify_by_restart(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood held,
                                double cut, int block, int rounds, std::uint64_t seed) {
   const auto begin = std::chrono::steady_clock::now();
-  const int solves = op.solves;
+  const Offset applied = op.applied;
   Certificate out{.complete = true, .method = "restart", .at = op.eigenvalue(cut)};
   for (int round = 0; round < rounds && out.complete; ++round)
     out.complete = clean(op, deflated, held, cut, block, seed + 131 * round);
-  out.solves = op.solves - solves;
+  out.solves = static_cast<int>(op.applied - applied);
   out.seconds = seconds_since(begin);
   return out;
 }

@@ -17,7 +17,7 @@ namespace perimode {
 
 /// Complete iff random blocks deflated against known and found vectors, aware of whatever else the
 /// iteration still holds, meet nothing at or above `cut` = 1 / (lambda - sigma): `rounds` seeds.
-[[nodiscard]] Certificate certify_by_restart(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+[[nodiscard]] Certificate certify_by_restart(SpectralTransform& op, const Eigen::MatrixXd& deflated,
                                              Neighbourhood held, double cut, int block, int rounds,
                                              std::uint64_t seed);
 

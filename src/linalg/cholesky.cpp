@@ -110,11 +110,14 @@ FillEstimate estimate(const cholmod_common& common, double matrix_entries, doubl
 }  // namespace
 
 FillEstimate predict_fill(const Csr& pattern, std::span<const Index> node_of_dof) {
+  return predict_fill_with_order(pattern, fill_reducing_order(pattern, node_of_dof));
+}
+
+FillEstimate predict_fill_with_order(const Csr& pattern, const std::vector<Index>& order) {
   refuse_wide_pattern(pattern);
   CholmodWorkspace workspace;
   UpperTriangle upper(pattern, false);
-  cholmod_factor* factor =
-      analyse(workspace, upper, fill_reducing_order(pattern, node_of_dof), CHOLMOD_SIMPLICIAL);
+  cholmod_factor* factor = analyse(workspace, upper, order, CHOLMOD_SIMPLICIAL);
   cholmod_free_factor(&factor, workspace.get());
   return estimate(*workspace.get(), static_cast<double>(upper.row.size()), pattern.rows);
 }

@@ -41,8 +41,9 @@ double spectrum_bound(const EigenProblem& problem) {
 /// The largest eigenvalue from below, to about a part in a thousand: Lanczos on M^-1/2 K M^-1/2.
 double largest_estimate(const EigenProblem& problem, std::uint64_t seed) {
   constexpr int steps = 40, block = 1;
-  ShiftInvert op{.root_mass = problem.mass->cwiseSqrt().cwiseInverse(),
-                 .solve = [&](const MatrixView& b) { return multiply(*problem.stiffness, b); }};
+  SpectralTransform op =
+      shift_invert(0.0, true, problem.mass->cwiseSqrt().cwiseInverse(),
+                   [&](const MatrixView& b) { return multiply(*problem.stiffness, Eigen::MatrixXd(b)); });
   const Eigen::MatrixXd nothing(op.size(), 0);
   BlockKrylov space(op, nothing, nothing, block, (steps + 2) * block, seed);
   for (int step = 0; step < steps && space.step(); ++step) continue;
@@ -65,10 +66,8 @@ struct Interior {
     for (int trial = 0;; ++trial) {
       const IndefiniteFactor factor(*problem.stiffness, sigma, *problem.mass, order);
       result.factor_nonzeros = factor.nonzeros();
-      ShiftInvert op{.sigma = sigma,
-                     .positive = false,
-                     .root_mass = problem.mass->cwiseSqrt(),
-                     .solve = [&](const MatrixView& b) { return factor.solve(b); }};
+      SpectralTransform op = shift_invert(sigma, false, problem.mass->cwiseSqrt(),
+                                          [&](const MatrixView& b) { return factor.solve(b); });
       // A vector without symmetries, so that it has a part along whatever mode sigma may have hit.
       const Eigen::VectorXd probe =
           Eigen::VectorXd::LinSpaced(op.size(), 1.0, static_cast<double>(op.size())).array().square().sin();
@@ -85,7 +84,7 @@ struct Interior {
       SearchResult found = search(op, known, wanted, search_settings(options, problem.stiffness->rows),
                                   search_method(options), sink);
       result.seconds_iterate += iteration.seconds();
-      result.solves += op.solves;
+      result.solves += static_cast<int>(op.applied);
       result.restarts += found.pairs.restarts;
       result.shift = sigma;
       return found;
@@ -151,12 +150,7 @@ struct Interior {
 EigenResult solve_range(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
   EigenResult out;
   const Stopwatch analysis;
-  Interior interior{problem,
-                    options,
-                    sink,
-                    known_directions(problem),
-                    fill_reducing_order(*problem.stiffness, problem.node_of_dof),
-                    out};
+  Interior interior{problem, options, sink, known_directions(problem), elimination_order(problem), out};
   out.engine = method_name(options);
   out.seconds_analyse = analysis.seconds();
 
@@ -197,12 +191,7 @@ EigenResult solve_range(const EigenProblem& problem, const EigenOptions& options
 EigenResult solve_nearest(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
   EigenResult out;
   const Stopwatch analysis;
-  Interior interior{problem,
-                    options,
-                    sink,
-                    known_directions(problem),
-                    fill_reducing_order(*problem.stiffness, problem.node_of_dof),
-                    out};
+  Interior interior{problem, options, sink, known_directions(problem), elimination_order(problem), out};
   out.engine = method_name(options);
   out.seconds_analyse = analysis.seconds();
   const Eigen::Index room = problem.mass->size() - interior.known.cols();

@@ -39,8 +39,8 @@ double factor_definite(CholeskyFactor& factor, const EigenProblem& problem, cons
 /// Shows that `found` and `known` are all there is below the cut; searches on, a few times, where
 /// something is missing.
 Certificate certify(const EigenProblem& problem, const EigenOptions& options, const CholeskyFactor& factor,
-                    ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted, SearchResult& found,
-                    const Sink& sink) {
+                    SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+                    SearchResult& found, const Sink& sink) {
   if (options.check == CompletenessCheck::none) return {.asked = false, .method = "none"};
   const bool inertia =
       options.check == CompletenessCheck::inertia ||
@@ -70,21 +70,26 @@ Certificate certify(const EigenProblem& problem, const EigenOptions& options, co
 
 }  // namespace
 
+std::vector<Index> elimination_order(const EigenProblem& problem) {
+  return problem.position != nullptr
+             ? dissection_order(*problem.stiffness, problem.node_of_dof, *problem.position)
+             : fill_reducing_order(*problem.stiffness, problem.node_of_dof);
+}
+
 EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
   EigenResult out;
   out.engine = method_name(options);
   sink.report("analysis");
   const Stopwatch analysis;
-  CholeskyFactor factor(*problem.stiffness, problem.node_of_dof);
+  CholeskyFactor factor = CholeskyFactor::with_order(*problem.stiffness, elimination_order(problem));
   out.seconds_analyse = analysis.seconds();
   out.factor_nonzeros = factor.fill().nonzeros;
 
   sink.report("factorisation");
   const Stopwatch factorisation;
-  ShiftInvert op;
-  op.sigma = out.shift = factor_definite(factor, problem, options);
-  op.root_mass = problem.mass->cwiseSqrt();
-  op.solve = [&](const MatrixView& b) { return factor.solve(b); };
+  out.shift = factor_definite(factor, problem, options);
+  SpectralTransform op = shift_invert(out.shift, true, problem.mass->cwiseSqrt(),
+                                      [&](const MatrixView& b) { return factor.solve(b); });
   out.seconds_factor = factorisation.seconds();
 
   const Stopwatch iteration;
@@ -93,7 +98,7 @@ EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& option
   SearchResult found = search(op, known, wanted, search_settings(options, problem.stiffness->rows),
                               search_method(options), sink);
   out.seconds_iterate = iteration.seconds();
-  out.solves = op.solves;
+  out.solves = static_cast<int>(op.applied);
   if (found.clean) {
     out.certificate = certify(problem, options, factor, op, known, wanted, found, sink);
     const bool certified = out.certificate.complete || !out.certificate.asked;

@@ -31,7 +31,7 @@ Eigen::MatrixXd known_directions(const EigenProblem& problem) {
 void rayleigh_ritz(const EigenProblem& problem, const Eigen::MatrixXd& y, EigenResult& result) {
   const Eigen::MatrixXd x = problem.mass->cwiseSqrt().cwiseInverse().asDiagonal() * y;
   const Eigen::LLT<Eigen::MatrixXd> root(transposed_product(y, y));
-  Eigen::MatrixXd h = transposed_product(x, multiply(*problem.stiffness, x));
+  Eigen::MatrixXd h = transposed_product(x, multiply(action_of(problem), x));
   root.matrixL().solveInPlace(h);
   h = root.matrixL().solve(h.transpose()).eval();
   h = 0.5 * (h + h.transpose()).eval();

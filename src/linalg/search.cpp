@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "sparse_engine.hpp"
+
 namespace perimode {
 namespace {
 
@@ -17,7 +19,7 @@ constexpr int least_width = 4;  ///< columns of a random block at least
 constexpr int most_steps = 40;
 
 /// Would a random block have shown an eigenvalue >= cut in a space of polynomials of this degree?
-bool must_have_shown(const ShiftInvert& op, int degree, double rho, double cut) {
+bool must_have_shown(const SpectralTransform& op, int degree, double rho, double cut) {
   constexpr double shy = 0.03;
   const double x = op.positive ? 2.0 * cut / rho - 1.0 : cut / rho;
   const double growth = chebyshev(degree, x);
@@ -38,7 +40,7 @@ double cut_beside(const Neighbourhood& held, double cut) {
 /// The probe with the held vectors in the space. An eigenvector (w, u) with |theta| >= cut > |B| has
 /// u = (theta - B)^-1 v s, which the powers of B on v approach as fast as the random columns show an
 /// eigenvalue of B itself; a small residual of the largest Ritz pair settles the rest.
-Probe coupled_probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
+Probe coupled_probe(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
                     int width, std::uint64_t seed) {
   Probe out;
   out.found = Eigen::MatrixXd(op.size(), 0);
@@ -97,7 +99,7 @@ void merge(EigenPairs& all, EigenPairs& fresh) {
 
 /// Drops what lies beyond the cluster of the last wanted pair and returns the cut: the middle of
 /// the gap that follows.
-double trim_and_cut(const ShiftInvert& op, const Wanted& wanted, EigenPairs& pairs) {
+double trim_and_cut(const SpectralTransform& op, const Wanted& wanted, EigenPairs& pairs) {
   if (wanted.floor > 0.0) return wanted.floor;
   Eigen::Index end = std::min(wanted.count, pairs.theta.size());
   while (end > 0 && end < pairs.theta.size() && same_cluster(op, pairs.theta[end - 1], pairs.theta[end]))
@@ -127,8 +129,8 @@ Eigen::MatrixXd beside(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   return out;
 }
 
-Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
-            std::uint64_t seed) {
+Probe probe(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
+            int block, std::uint64_t seed) {
   Probe out;
   out.found = Eigen::MatrixXd(op.size(), 0);
   const Eigen::Index room = op.size() - deflated.cols() - held.vector.cols();
@@ -159,7 +161,7 @@ Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& hel
   return coupled_probe(op, deflated, held, cut, width, seed);
 }
 
-void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+void complete(SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted& wanted,
               const SearchSettings& settings, SearchResult& result, const Sink& sink) {
   EigenPairs& pairs = result.pairs;
   SearchSettings again = settings;
@@ -169,8 +171,12 @@ void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wante
     result.cut = trim_and_cut(op, wanted, pairs);
     ++again.seed;
     const Eigen::MatrixXd found = beside(known, pairs.vector);
+    const Stopwatch probing;
+    const Offset applied = op.applied;
     const Probe seen = probe(op, found, pairs.rest, result.cut, again.block, again.seed);
     if (seen.clean) {
+      result.probe_seconds = probing.seconds();
+      result.probe_columns = op.applied - applied;
       result.clean = true;
       return;
     }
@@ -188,7 +194,7 @@ void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wante
   result.message = "modes kept turning up at or below the last one wanted";
 }
 
-SearchResult search(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+SearchResult search(SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted& wanted,
                     const SearchSettings& settings, const Method& method, const Sink& sink) {
   SearchResult out;
   sink.report("modes");

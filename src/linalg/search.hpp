@@ -22,6 +22,9 @@ struct SearchSettings {
   double tolerance = 1e-10;
   std::uint64_t seed = 1;
   int most_restarts = 300;
+  int columns = 0;  ///< basis of block_lanczos at most; 0: as many as 20 to 60 modes need without a restart
+  /// Asked with the Ritz values, largest first, whenever they are looked at: true ends block_lanczos at once.
+  std::function<bool(const Eigen::VectorXd& theta)> give_up = {};
 };
 
 /// Converged eigenpairs of Op outside a deflated space, largest |theta| first.
@@ -36,24 +39,25 @@ struct EigenPairs {
 
 /// A method that finds the wanted pairs of Op outside `deflated` (orthonormal columns), beginning
 /// with `start`. It may miss copies of repeated eigenvalues; search() does not.
-using Method =
-    std::function<EigenPairs(ShiftInvert& op, const Eigen::MatrixXd& deflated, const Eigen::MatrixXd& start,
-                             const Wanted& wanted, const SearchSettings& settings)>;
+using Method = std::function<EigenPairs(SpectralTransform& op, const Eigen::MatrixXd& deflated,
+                                        const Eigen::MatrixXd& start, const Wanted& wanted,
+                                        const SearchSettings& settings)>;
 
-[[nodiscard]] EigenPairs block_lanczos(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+[[nodiscard]] EigenPairs block_lanczos(SpectralTransform& op, const Eigen::MatrixXd& deflated,
                                        const Eigen::MatrixXd& start, const Wanted& wanted,
                                        const SearchSettings& settings);
-[[nodiscard]] EigenPairs arpack(ShiftInvert& op, const Eigen::MatrixXd& deflated,
+[[nodiscard]] EigenPairs arpack(SpectralTransform& op, const Eigen::MatrixXd& deflated,
                                 const Eigen::MatrixXd& start, const Wanted& wanted,
                                 const SearchSettings& settings);
 
 /// Are two distances |lambda - sigma| = 1/|theta| copies of one eigenvalue? Apart by less than 1e-6
 /// of themselves (or 1e-9 of |sigma|, the round-off of a shift inside the spectrum): yes.
-[[nodiscard]] bool same_cluster(const ShiftInvert& op, double theta, double other);
+[[nodiscard]] bool same_cluster(const SpectralTransform& op, double theta, double other);
 
-/// Is a Ritz pair good: |K x - lambda M x|_{M^-1} = |r| / theta^2 (Op y = theta y + r, y purified)
-/// at most tolerance * lambda, or as far down as round-off lets the iteration go?
-[[nodiscard]] bool is_converged(const ShiftInvert& op, double theta, double residual, double largest,
+/// Is a Ritz pair good: |K x - lambda M x|_{M^-1} = |r| / slope (Op y = theta y + r, y purified; a shift and
+/// invert has the slope theta^2) at most tolerance * lambda, or as far down as round-off lets the iteration
+/// go?
+[[nodiscard]] bool is_converged(const SpectralTransform& op, double theta, double residual, double largest,
                                 double tolerance);
 
 /// Looks for an eigenvalue |theta| >= cut of Op outside `deflated` with a random block of at least
@@ -74,22 +78,24 @@ struct Probe {
   Eigen::MatrixXd found;  ///< approximate eigenvectors with |theta| >= cut
 };
 /// Neither clean nor anything found: undecided, and `held` is a better one to try again with.
-[[nodiscard]] Probe probe(ShiftInvert& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut,
-                          int block, std::uint64_t seed);
+[[nodiscard]] Probe probe(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood& held,
+                          double cut, int block, std::uint64_t seed);
 
 /// All wanted pairs: the method first, then random blocks deflated against everything found, until
 /// one finds nothing at or above the cut, which lies in the gap after the last wanted cluster.
 struct SearchResult {
-  EigenPairs pairs;    ///< the wanted ones and the rest of the last cluster
-  double cut = 0.0;    ///< |theta| above which all are found
-  bool clean = false;  ///< the last random block found nothing
+  EigenPairs pairs;            ///< the wanted ones and the rest of the last cluster
+  double cut = 0.0;            ///< |theta| above which all are found
+  bool clean = false;          ///< the last random block found nothing
+  double probe_seconds = 0.0;  ///< taken by that block
+  Offset probe_columns = 0;    ///< that Op was applied to for it
   std::string message;
 };
-[[nodiscard]] SearchResult search(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+[[nodiscard]] SearchResult search(SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted& wanted,
                                   const SearchSettings& settings, const Method& method, const Sink& sink);
 
 /// The second half of search(): extends `result.pairs` until a random block is clean.
-void complete(ShiftInvert& op, const Eigen::MatrixXd& known, const Wanted& wanted,
+void complete(SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted& wanted,
               const SearchSettings& settings, SearchResult& result, const Sink& sink);
 
 /// [a b]

@@ -26,9 +26,20 @@ void check(const EigenProblem& problem, const EigenOptions& options);
 /// max K_ii / M_ii.
 [[nodiscard]] double negative_shift(const EigenProblem& problem, const EigenOptions& options);
 
+/// The lowest modes without a factor: block Lanczos on a Chebyshev polynomial of K, or on the inverse by
+/// conjugate gradients.
+[[nodiscard]] EigenResult solve_factor_free(const EigenProblem& problem, const EigenOptions& options,
+                                            const Sink& sink);
+
 [[nodiscard]] SearchSettings search_settings(const EigenOptions& options, Index rows);
 [[nodiscard]] Method search_method(const EigenOptions& options);
 [[nodiscard]] const char* method_name(const EigenOptions& options);
+
+/// The order in which a factor eliminates the dofs.
+[[nodiscard]] std::vector<Index> elimination_order(const EigenProblem& problem);
+
+/// K of a problem as an operator, whatever it is given as.
+[[nodiscard]] LinearOperator action_of(const EigenProblem& problem);
 
 /// M^1/2 known, with no columns where nothing is known.
 [[nodiscard]] Eigen::MatrixXd known_directions(const EigenProblem& problem);

@@ -9,6 +9,8 @@
 #include <numbers>
 
 #include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/multigrid.hpp"
+#include "perimode/assembly/operators.hpp"
 #include "perimode/modal/rigid.hpp"
 
 namespace perimode {
@@ -44,9 +46,13 @@ double eigenvalue_scale(const Body<Dim>& body, double largest) {
 }
 
 struct Problem {
-  Csr stiffness;
+  LinearOperator action;
+  double bound = 0.0;                  ///< no |eigenvalue| of K lies above, N/m
+  Csr stiffness;                       ///< assembled for the engines that need it
+  std::optional<Multigrid> multigrid;  ///< for the engine inverse on grids
   Eigen::VectorXd mass;
   std::vector<Index> particle;
+  Eigen::MatrixXd position;  ///< Dim x particles
 };
 
 /// Modes merged from deflated rigid motions and what the solver returned.
@@ -174,8 +180,8 @@ void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, 
   result.rigid_modes = static_cast<int>(std::count(result.kind.begin(), result.kind.end(), ModeKind::rigid)) -
                        result.mechanisms;
 
-  const Eigen::MatrixXd kx = multiply(problem.stiffness, result.shape);
-  const double k_norm = norm_inf(problem.stiffness);
+  const Eigen::MatrixXd kx = multiply(problem.action, result.shape);
+  const double k_norm = problem.bound;
   const Eigen::MatrixXd mr = problem.mass.asDiagonal() * translations(body);
   const Eigen::MatrixXd right = result.shape.transpose() * mr;
   result.effective_mass = result.left.cols() == 0
@@ -195,12 +201,20 @@ template <int Dim>
 void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
                           const ModalOptions& options, double scale, const Sink& sink) {
   sink.report("rigid modes");
-  const Eigen::MatrixXd rigid =
-      rigid_modes(body, as_operator(problem.stiffness), norm_inf(problem.stiffness), problem.mass);
+  const Eigen::MatrixXd rigid = rigid_modes(body, problem.action, problem.bound, problem.mass);
   EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
   wanted.negative_shift = -1e-2 * scale;
-  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle,
-                           rigid.cols() > 0 ? &rigid : nullptr};
+  wanted.engine = result.choice.engine;
+  wanted.edge = result.choice.edge;
+  wanted.top = result.largest;
+  const EigenProblem eigen{
+      .stiffness = problem.stiffness.rows > 0 ? &problem.stiffness : nullptr,
+      .mass = &problem.mass,
+      .node_of_dof = problem.particle,
+      .known = rigid.cols() > 0 ? &rigid : nullptr,
+      .position = problem.position.size() > 0 ? &problem.position : nullptr,
+      .action = &problem.action,
+      .preconditioner = problem.multigrid ? &problem.multigrid->preconditioner : nullptr};
 
   Pairs pairs;
   const bool want_rigid = !options.range || options.range->first <= 0.0;
@@ -221,6 +235,7 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
     result.certificate = r.certificate;
     result.shift = r.shift;
     result.solves = r.solves;
+    result.products = r.products;
     result.factor_nonzeros = r.factor_nonzeros;
     result.seconds_analyse = r.seconds_analyse;
     result.seconds_factor = r.seconds_factor;
@@ -317,22 +332,36 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   const auto start = std::chrono::steady_clock::now();
   sink.report("assembling");
   Problem problem;
-  problem.stiffness = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
   problem.mass = lumped_mass(body);
-  problem.particle = particle_of_free_dof(body);
-  result.nonzeros = problem.stiffness.nonzeros();
-  result.asymmetry = asymmetry(problem.stiffness);
-  result.largest = norm_inf(problem.stiffness) / problem.mass.minCoeff();
+  problem.action = stiffness_operator(body);
+  problem.bound = stiffness_bound(body);
+  result.largest = problem.bound / problem.mass.minCoeff();
   if (!std::isfinite(result.largest)) {
     invalid_input({"stiffnesses and masses within the range of floating-point numbers",
                    fmt::format("a largest eigenvalue of {}", result.largest),
                    "check the material and the units",
                    {}});
   }
+  result.asymmetry = asymmetry(problem.action);
+  const bool symmetric = result.asymmetry <= symmetric_to_round_off;
+  result.choice = choose_solver(modal_size(body, symmetric), result.largest, wanted);
+  if (needs_matrix(result.choice.engine)) {
+    problem.stiffness = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+    problem.particle = particle_of_free_dof(body);
+    problem.position =
+        Eigen::Map<const Eigen::MatrixXd>(body.particles.position[0].data(), Dim, body.count());
+    problem.action = as_operator(problem.stiffness);
+    problem.bound = norm_inf(problem.stiffness);
+    result.nonzeros = problem.stiffness.nonzeros();
+    result.asymmetry = asymmetry(problem.stiffness);
+  } else if (result.choice.engine == EigenEngine::inverse) {
+    if (std::holds_alternative<GridBonds<Dim>>(body.bonds))
+      problem.multigrid = multigrid(body, problem.action);
+  }
   result.seconds_assemble = seconds_since(start);
   const double scale = eigenvalue_scale(body, result.largest);
 
-  if (result.asymmetry <= symmetric_to_round_off) {
+  if (symmetric) {
     solve_symmetric_body(result, body, problem, wanted, scale, sink);
   } else {
     solve_unsymmetric_body(result, body, problem, wanted, scale, sink);

@@ -6,10 +6,12 @@
 #include <algorithm>
 
 #include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/operators.hpp"
 #include "perimode/bonds/connectivity.hpp"
 #include "perimode/linalg/eigen.hpp"
 #include "perimode/modal/modes.hpp"
 #include "perimode/modal/rigid.hpp"
+#include "perimode/modal/solver_choice.hpp"
 
 namespace perimode {
 
@@ -66,59 +68,77 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   warn_of_mechanisms(body, plan);
   check_request(plan.dofs, options);
 
-  BlockCsr blocks = assemble_stiffness(body);
-  const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);
-  const Csr k = scalar_csr(blocks, body.boundary.free_number);
-  blocks = {};
+  const LinearOperator action = stiffness_operator(body);
   const Eigen::VectorXd mass = lumped_mass(body);
-  plan.nonzeros = k.nonzeros();
-  plan.asymmetry = asymmetry(k);
-  const double csr_bytes = 12.0 * static_cast<double>(plan.nonzeros) + 16.0 * plan.dofs;
+  const double bound = stiffness_bound(body);
+  plan.asymmetry = asymmetry(action);
+  const bool symmetric = plan.asymmetry <= 1e-12;
+  const SolverChoice choice = choose_solver(modal_size(body, symmetric), bound / mass.minCoeff(), options);
+  plan.reason = choice.reason;
+  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, action, bound, mass).cols());
+
   const double dofs = plan.dofs;
   const double wanted = options.modes.value_or(20);
-  const double assembling = body_bytes(body) + block_bytes + csr_bytes;
+  // What is held from the start, and what the solver adds. Pages that a step leaves are taken again by the
+  // next.
+  double held = body_bytes(body) + operator_bytes(body);
   double solving = 0.0;
-  const bool symmetric = plan.asymmetry <= 1e-12;
-  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, as_operator(k), norm_inf(k), mass).cols());
-
-  const bool small = dofs <= (symmetric ? EigenOptions{}.dense_limit : unsymmetric_dense_limit);
-  if (options.solver == ModalSolver::dense || (options.solver == ModalSolver::automatic && small)) {
-    plan.solver = "dense";
-    plan.reason = options.solver == ModalSolver::dense
-                      ? "asked for"
-                      : fmt::format("{} dofs are few: all modes by LAPACK", plan.dofs);
-    solving = (symmetric ? 3.0 : 8.0) * 8.0 * dofs * dofs;
-  } else if (symmetric) {
-    plan.solver = options.solver == ModalSolver::arpack  ? "arpack"
-                  : options.solver == ModalSolver::slepc ? "slepc"
-                                                         : "lanczos";
-    plan.reason = options.solver == ModalSolver::automatic
-                      ? "K is symmetric: one supernodal Cholesky factor serves all modes asked for"
-                      : "asked for";
-    plan.fill = predict_fill(k, particle_of_free_dof(body));
-    const double basis = std::max(100.0, 3.0 * wanted + 40.0) + 2.0 * plan.rigid;
-    solving = plan.fill.peak_bytes + 8.0 * dofs * (2.2 * basis + 3.0 * wanted);
+  if (needs_matrix(choice.engine)) {
+    BlockCsr blocks = assemble_stiffness(body);
+    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);
+    const Csr k = scalar_csr(blocks, body.boundary.free_number);
+    blocks = {};
+    plan.nonzeros = k.nonzeros();
+    // The blocks of K are freed before the factor is made, but what was theirs is rarely of use to it.
+    held += block_bytes + 12.0 * static_cast<double>(plan.nonzeros) + 16.0 * dofs;
+    const bool dense = choice.engine == ModalSolver::dense || (!symmetric && dofs <= unsymmetric_dense_limit);
+    const auto order = [&] {
+      const Eigen::Map<const Eigen::MatrixXd> place(body.particles.position[0].data(), Dim, body.count());
+      return dissection_order(k, particle_of_free_dof(body), place);
+    };
+    if (dense) {
+      plan.solver = "dense";
+      solving = (symmetric ? 3.0 : 8.0) * 8.0 * dofs * dofs;
+    } else if (symmetric) {
+      plan.solver = choice.engine == ModalSolver::arpack  ? "arpack"
+                    : choice.engine == ModalSolver::slepc ? "slepc"
+                                                          : "lanczos";
+      plan.fill = predict_fill_with_order(k, order());
+      const double basis = std::max(100.0, 3.0 * wanted + 40.0) + 2.0 * plan.rigid;
+      solving = plan.fill.peak_bytes + 8.0 * dofs * (2.2 * basis + 3.0 * wanted);
+    } else {
+      plan.solver = "arpack";
+      plan.fill = predict_fill_with_order(k, order());
+      // UMFPACK keeps L and U and a working copy; its column order fills more than a symmetric one.
+      solving = 4.0 * plan.fill.factor_bytes + 8.0 * dofs * (8.0 * wanted + 60.0);
+    }
   } else {
-    plan.solver = "arpack";
-    plan.reason = "K is not symmetric under this boundary: LU factor and Arnoldi iteration";
-    plan.fill = predict_fill(k, particle_of_free_dof(body));
-    // UMFPACK keeps L and U and a working copy; its column order fills more than a symmetric one.
-    solving = 4.0 * plan.fill.factor_bytes + 8.0 * dofs * (8.0 * wanted + 60.0);
+    plan.solver = choice.engine == ModalSolver::chebyshev ? "chebyshev" : "inverse";
+    solving = factor_free_bytes(dofs, wanted);
   }
-  // The blocks of K are freed before the factor is made, but what was theirs is rarely of use to it.
   constexpr double program_bytes = 80e6;  // code, libraries and the work space of the BLAS
-  plan.memory_bytes = assembling + solving + program_bytes;
+  plan.memory_bytes = held + solving + program_bytes;
   return plan;
 }
 
 double least_memory(const Model& model) {
   const BodySize size = estimate_size(model);
   const double d = model.dimension;
-  return size.particles * (40.0 + 20.0 * d + size.family * (0.2 + 4.0 + 8.0 * d * d));
+  return size.particles * (20.0 + 28.0 * d + 0.125 * size.family);
+}
+
+template <int Dim>
+double rough_memory(const Body<Dim>& body, const ModalOptions& options) {
+  const ModalSize size = modal_size(body, true);
+  const SolverChoice choice = choose_solver(size, 1.0, options);
+  return body_bytes(body) + operator_bytes(body) + rough_bytes(size, choice.engine, options);
 }
 
 template ModalPlan plan_modes<1>(const Body<1>&, const ModalOptions&);
 template ModalPlan plan_modes<2>(const Body<2>&, const ModalOptions&);
 template ModalPlan plan_modes<3>(const Body<3>&, const ModalOptions&);
+template double rough_memory<1>(const Body<1>&, const ModalOptions&);
+template double rough_memory<2>(const Body<2>&, const ModalOptions&);
+template double rough_memory<3>(const Body<3>&, const ModalOptions&);
 
 }  // namespace perimode

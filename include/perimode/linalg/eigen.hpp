@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "perimode/core/sink.hpp"
+#include "perimode/linalg/operator.hpp"
 #include "perimode/linalg/sparse.hpp"
 
 namespace perimode {
@@ -17,15 +18,24 @@ namespace perimode {
 /// `known` (n x r, M-orthonormal) spans a part of the null space of K that the caller has found
 /// (rigid modes): it is deflated, and the solvers return only modes orthogonal to it.
 /// `node_of_dof` groups dofs of one particle for the fill-reducing ordering (non-decreasing).
+/// `action` is K as an operator; the engines that need no factor need nothing else, the others the matrix.
 struct EigenProblem {
   const Csr* stiffness = nullptr;
   const Eigen::VectorXd* mass = nullptr;
   std::span<const Index> node_of_dof = {};
   const Eigen::MatrixXd* known = nullptr;
+  /// Places of the nodes (dimension x nodes), for an order of elimination from geometry; null: METIS.
+  const Eigen::MatrixXd* position = nullptr;
+  const LinearOperator* action = nullptr;
+  /// inverse: approximates (K + a little M)^-1 for conjugate gradients; null: none.
+  const LinearOperator* preconditioner = nullptr;
 };
 
-/// slepc needs a library built with PERIMODE_WITH_SLEPC; else Error(environment).
-enum class EigenEngine { automatic, lanczos, arpack, dense, slepc };
+/// lanczos, arpack: a factor of K - sigma M. dense: LAPACK. chebyshev: block Lanczos on a Chebyshev
+/// polynomial of K. inverse: block Lanczos on (K - sigma M)^-1 by conjugate gradients. The last two find
+/// lowest modes only. slepc needs a library built with PERIMODE_WITH_SLEPC; else Error(environment).
+/// automatic: dense for small problems, lanczos where there is a matrix, else chebyshev.
+enum class EigenEngine { automatic, lanczos, arpack, dense, chebyshev, inverse, slepc };
 enum class CompletenessCheck { automatic, inertia, restart, none };
 
 struct EigenOptions {
@@ -46,7 +56,11 @@ struct EigenOptions {
   double negative_shift = std::numeric_limits<double>::quiet_NaN();
   /// Estimate of the first elastic eigenvalue (rad/s)^2, > 0; sets the shift of free bodies.
   double scale = 0.0;
-  int block_size = 0;     ///< 0: 4, and 8 from 20,000 dofs on
+  /// chebyshev: a guess of an eigenvalue somewhat above those wanted; it only steers. 0: none.
+  double edge = 0.0;
+  /// chebyshev: no eigenvalue lies above (stiffness_bound / least mass). 0: unknown.
+  double top = 0.0;
+  int block_size = 0;     ///< 0: 4, and 8 from 20,000 dofs on with a factor
   int dense_limit = 600;  ///< automatic: dense below this many dofs
   std::uint64_t seed = 1;
 };
@@ -73,10 +87,15 @@ struct EigenResult {
   std::string message;  ///< why, when not converged or not certified
   double shift = 0.0;   ///< used
   int solves = 0;       ///< single right-hand sides
+  Offset products = 0;  ///< with K, of single vectors, by the engines without a factor
   int restarts = 0;
   Offset factor_nonzeros = 0;
   double seconds_analyse = 0.0, seconds_factor = 0.0, seconds_iterate = 0.0;
 };
+
+/// Bytes that the engines chebyshev and inverse hold at their peak: the basis, what a restart keeps beside
+/// it, the modes, and vectors of their own; without the operator and its preconditioner.
+[[nodiscard]] double factor_free_bytes(double dofs, double modes);
 
 /// Lowest, in-range or nearest eigenpairs of a symmetric problem with a completeness certificate.
 [[nodiscard]] EigenResult solve_eigen(const EigenProblem& problem, const EigenOptions& options,

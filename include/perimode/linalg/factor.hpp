@@ -31,6 +31,8 @@ struct FillEstimate {
 };
 /// Orders and counts; no numbers are touched. Cost as an ordering and O(nonzeros).
 [[nodiscard]] FillEstimate predict_fill(const Csr& pattern, std::span<const Index> node_of_dof);
+/// The same with a given order of elimination.
+[[nodiscard]] FillEstimate predict_fill_with_order(const Csr& pattern, const std::vector<Index>& order);
 
 enum class FactorStatus { done, not_positive_definite };
 

@@ -9,6 +9,7 @@
 #include "perimode/core/sink.hpp"
 #include "perimode/linalg/eigen.hpp"
 #include "perimode/modal/options.hpp"
+#include "perimode/modal/solver_choice.hpp"
 
 namespace perimode {
 
@@ -18,7 +19,8 @@ enum class ModeKind { elastic, rigid };
 struct ModalResult {
   EigenStatus status = EigenStatus::not_converged;
   std::string message;  ///< why, when not converged or not certified
-  std::string solver;   ///< "lanczos", "arpack", "dense", "dense unsymmetric", ...
+  std::string solver;   ///< "lanczos", "arpack", "dense", "dense unsymmetric", "chebyshev", ...
+  SolverChoice choice;  ///< and why
   Certificate certificate;
 
   std::vector<ModeKind> kind;
@@ -40,7 +42,8 @@ struct ModalResult {
   double largest = 0.0;    ///< bound of (dense: the) largest eigenvalue, (rad/s)^2
   double shift = 0.0;
   int solves = 0;
-  Offset nonzeros = 0;  ///< of K over the free dofs
+  Offset products = 0;  ///< with K, by the engines without a factor
+  Offset nonzeros = 0;  ///< of K over the free dofs, where it was assembled
   Offset factor_nonzeros = 0;
   double seconds_assemble = 0.0, seconds_analyse = 0.0, seconds_factor = 0.0, seconds_iterate = 0.0;
 

@@ -9,7 +9,9 @@
 namespace perimode {
 
 /// lanczos: block Lanczos with full reorthogonalisation on CHOLMOD's factor. arpack: ARPACK on
-/// the same factor. dense: LAPACK, all modes. slepc: Krylov-Schur on a factor of MUMPS, where built in.
+/// the same factor. dense: LAPACK, all modes. chebyshev: block Lanczos on a Chebyshev polynomial of K,
+/// nothing assembled or factored. inverse: block Lanczos on the inverse by conjugate gradients with multigrid
+/// (grids). slepc: Krylov-Schur on a factor of MUMPS, where built in.
 using ModalSolver = EigenEngine;
 
 /// How the set of modes is shown to be complete. inertia: the count of negative pivots of
@@ -26,7 +28,8 @@ struct ModalOptions {
   ModalSolver solver = ModalSolver::automatic;
   CertificateMethod certificate = CertificateMethod::automatic;
   ReferenceKind reference = ReferenceKind::none;
-  int block_size = 0;  ///< of block Lanczos; 0: 4, and 8 from 20,000 dofs on
+  int block_size = 0;       ///< of block Lanczos; 0: 4, and 8 from 20,000 dofs on with a factor
+  double memory_limit = 0;  ///< bytes a solver chosen automatically may take; 0: any
 };
 
 }  // namespace perimode

@@ -17,7 +17,7 @@ struct ModalPlan {
   Offset bonds = 0;      ///< alive, each once
   Offset cut = 0;        ///< by pre-cracks
   Index dofs = 0;        ///< free ones
-  Offset nonzeros = 0;   ///< of K over the free dofs
+  Offset nonzeros = 0;   ///< of K over the free dofs, where it is assembled
   double asymmetry = 0;  ///< max |K - K^T| / max |K|
   Index pieces = 0;
   Index isolated = 0;  ///< particles without a bond
@@ -29,12 +29,17 @@ struct ModalPlan {
   std::vector<std::string> warnings;
 };
 
-/// Assembles K and analyses it, but factors and solves nothing. Cost: the assembly and an ordering.
+/// Chooses the solver and predicts what it takes, but factors and solves nothing. Cost: a few products with K
+/// and, for a solver that factors, the assembly and an ordering.
 template <int Dim>
 [[nodiscard]] ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options);
 
-/// Bytes a body and its K will at least take, from the model alone: tells a case that cannot fit before
-/// anything is built. 0 for clouds.
+/// Bytes a body and one field on it will at least take, from the model alone: tells a case that cannot fit
+/// before anything is built. 0 for clouds.
 [[nodiscard]] double least_memory(const Model& model);
+
+/// The memory of plan_modes to within a factor of about 2, without assembling or ordering anything.
+template <int Dim>
+[[nodiscard]] double rough_memory(const Body<Dim>& body, const ModalOptions& options);
 
 }  // namespace perimode

@@ -18,15 +18,15 @@ class MissedMode : public testing::Test {
  protected:
   MissedMode() : factor_(k_, {}) {
     EXPECT_EQ(factor_.factorize(k_, 0.0, mass_), FactorStatus::done);
-    op_.root_mass = mass_.cwiseSqrt();
-    op_.solve = [this](const MatrixView& b) { return factor_.solve(b); };
+    op_ =
+        shift_invert(0.0, true, mass_.cwiseSqrt(), [this](const MatrixView& b) { return factor_.solve(b); });
     found_ = search(op_, Eigen::MatrixXd(k_.rows, 0), {.count = 19}, {}, block_lanczos, {});
   }
 
   Csr k_ = test::periodic_lattice(8, 0.1);
   Eigen::VectorXd mass_ = Eigen::VectorXd::Ones(k_.rows);
   CholeskyFactor factor_;
-  ShiftInvert op_;
+  SpectralTransform op_;
   SearchResult found_;
 };
 
