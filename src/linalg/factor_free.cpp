@@ -76,7 +76,7 @@ SearchResult filtered(Search& search, EigenResult& out) {
     const Eigen::Index last = std::max<Eigen::Index>(search.wanted.count, 1) - 1;
     search.settings.give_up = [&](const Eigen::VectorXd& theta) {
       if (trial == most_filters || theta.size() <= last) return false;
-      constexpr double wasteful = 5.0, room = 2.0, close = 0.8;
+      constexpr double wasteful = 8.0, room = 2.0, close = 0.8;
       const double seen = op.eigenvalue(theta[last]);
       const bool full = theta.size() + 2 * search.settings.block > search.settings.columns;
       if (wasteful * seen < edge) better = room * seen;

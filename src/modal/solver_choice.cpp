@@ -39,7 +39,8 @@ double weyl_edge(const ModalSize& size, double largest, double count) {
   const int d = size.dimension;
   const double ball = d == 1 ? 2.0 : d == 2 ? pi : 4.0 / 3.0 * pi;
   const double waves = 1.0 + (d - 1) * std::pow(3.0, 0.5 * d);
-  const double wave_number = 2.0 * pi * std::pow(count / (ball * waves * size.particles), 1.0 / d);
+  constexpr double more = 5.0;  // a filter may well let in a few that are not wanted
+  const double wave_number = 2.0 * pi * std::pow((count + more) / (ball * waves * size.particles), 1.0 / d);
   return 3.0 * top * wave_number * wave_number;
 }
 
@@ -75,6 +76,17 @@ SolverCost chebyshev_cost(const ModalSize& size, double largest, const ModalOpti
   cost.solver = "chebyshev";
   cost.seconds = columns * (degree * product_seconds(size) + 4e-10 * size.dofs * columns);
   cost.bytes = factor_free_bytes(size.dofs, modes);
+  return cost;
+}
+
+SolverCost inverse_cost(const ModalSize& size, const ModalOptions& options) {
+  const double modes = wanted_modes(options);
+  constexpr double iterations = 20.0;  // of conjugate gradients with V-cycles, at any size
+  constexpr double products = 9.0;     // that one such iteration costs as much as
+  SolverCost cost;
+  cost.solver = "inverse";
+  cost.seconds = (80.0 + 3.0 * modes) * iterations * products * product_seconds(size);
+  cost.bytes = factor_free_bytes(size.dofs, modes) + 8.0 * size.dofs * 15.0;
   return cost;
 }
 
@@ -164,6 +176,7 @@ SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOpt
     return choice;
   }
   choice.considered = {factor_cost(size, options, "lanczos"), chebyshev_cost(size, largest, options)};
+  if (size.grid && size.dimension > 1) choice.considered.push_back(inverse_cost(size, options));
   if (options.certificate == CertificateMethod::inertia) choice.considered.resize(1);
   std::stable_sort(choice.considered.begin(), choice.considered.end(), [&](const auto& a, const auto& b) {
     const bool fits_a = options.memory_limit <= 0.0 || a.bytes <= options.memory_limit;
@@ -171,7 +184,9 @@ SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOpt
     return fits_a != fits_b ? fits_a : a.seconds < b.seconds;
   });
   const SolverCost& best = choice.considered.front();
-  choice.engine = best.solver == "lanczos" ? ModalSolver::lanczos : ModalSolver::chebyshev;
+  choice.engine = best.solver == "lanczos"     ? ModalSolver::lanczos
+                  : best.solver == "chebyshev" ? ModalSolver::chebyshev
+                                               : ModalSolver::inverse;
   choice.reason = fmt::format("predicted {:.2g} s and {:.2g} GB", best.seconds, best.bytes * 1e-9);
   for (std::size_t k = 1; k < choice.considered.size(); ++k) {
     choice.reason += fmt::format(", {} {:.2g} s and {:.2g} GB", choice.considered[k].solver,
