@@ -13,7 +13,6 @@ TEST(LargeKirsch, TheErrorGoesOnFalling) {
   EXPECT_LT(e320.displacement, 0.7 * e160.displacement);
   EXPECT_LT(std::abs(e320.at_horizon), 0.04);
   EXPECT_GT(e320.concentration, 2.5);
-              e320.displacement, e320.at_horizon, e320.concentration);
 }
 
 }  // namespace
