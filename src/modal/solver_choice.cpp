@@ -175,6 +175,13 @@ SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOpt
     choice.reason = "modes inside the spectrum need a factor and its inertia";
     return choice;
   }
+  constexpr double counted = 5000;  // dofs up to which the certificate of a factor is always inertia
+  if (size.dofs <= counted) {
+    choice.engine = ModalSolver::lanczos;
+    choice.reason = fmt::format(
+        "{:.0f} dofs: a factor is cheap, and its inertia proves that no mode is missing", size.dofs);
+    return choice;
+  }
   choice.considered = {factor_cost(size, options, "lanczos"), chebyshev_cost(size, largest, options)};
   if (size.grid && size.dimension > 1) choice.considered.push_back(inverse_cost(size, options));
   if (options.certificate == CertificateMethod::inertia) choice.considered.resize(1);
