@@ -3,7 +3,8 @@
 """Checks who includes whom.
 
 A room includes itself and the rooms before it; a public header includes no third party but Eigen and
-the standard library. Files longer than 400 lines are named, which is a warning only.
+the standard library. No two headers define a type of the same name: both would be one to the linker.
+Files longer than 400 lines are named, which is a warning only.
 """
 
 import pathlib
@@ -13,6 +14,7 @@ import sys
 ROOMS = ["core", "geometry", "linalg", "bonds", "material", "boundary", "assembly", "modal", "statics", "dynamics",
          "fracture", "dispersion", "reference", "io", "cli"]
 LONG = 400
+TYPE = re.compile(r"^(?:struct|class|enum class) (\w+)(?: final)?(?: : [^;]*)? \{", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
@@ -46,6 +48,15 @@ def problems_of(path: pathlib.Path, room: str, public: bool) -> list[str]:
     return found
 
 
+def twice_defined(headers: list[pathlib.Path]) -> list[str]:
+    first, found = {}, []
+    for path in headers:
+        for name in TYPE.findall(path.read_text(encoding="utf-8")):
+            if first.setdefault(name, path) != path:
+                found.append(f"{path}: {name} is defined in {first[name]} too; give one of them another name")
+    return found
+
+
 def main() -> int:
     root = pathlib.Path(__file__).resolve().parent.parent
     problems, long_files = [], []
@@ -57,6 +68,8 @@ def main() -> int:
                 problems.append(f"{relative}: '{room}' is no known room")
                 continue
             problems += [p.replace(f"{root}/", "") for p in problems_of(path, room, public)]
+    problems += [p.replace(f"{root}/", "") for p in twice_defined(
+        [path for base in ("include/perimode", "src") for path in sorted((root / base).rglob("*.hpp"))])]
     for folder in ("include", "src", "tests", "studies"):
         for path in sorted((root / folder).rglob("*.[ch]pp")):
             lines = path.read_text(encoding="utf-8").count("\n")

@@ -28,7 +28,7 @@ template <int Dim>
 [[nodiscard]] StaticProblem pose_problem(const Body<Dim>& body, const StaticOptions& options);
 
 /// Which solver, and why. `solver` is never automatic.
-struct SolverChoice {
+struct StaticChoice {
   StaticSolver solver = StaticSolver::cholesky;
   std::string name;
   std::string reason;
@@ -36,7 +36,7 @@ struct SolverChoice {
 
 /// Throws invalid_input where the solver asked for does not fit the body.
 template <int Dim>
-[[nodiscard]] SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
+[[nodiscard]] StaticChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
                                          const StaticOptions& options);
 
 /// Numbers of the dofs a factor is made of: all free ones, but as many held back as there are rigid motions,

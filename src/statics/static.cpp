@@ -124,7 +124,7 @@ StaticResult solve_static(const Body<Dim>& body, const std::vector<BoundaryCondi
   StaticResult result;
   sink.report("loads and rigid motions");
   const StaticProblem problem = pose_problem(body, options);
-  SolverChoice choice = choose_solver(body, problem, options);
+  StaticChoice choice = choose_solver(body, problem, options);
   result.solver = std::move(choice.name);
   result.reason = std::move(choice.reason);
   result.asymmetry = problem.asymmetry;

@@ -100,7 +100,7 @@ double body_memory(const Body<Dim>& body) {
 }  // namespace
 
 template <int Dim>
-SolverChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
+StaticChoice choose_solver(const Body<Dim>& body, const StaticProblem& problem,
                            const StaticOptions& options) {
   if (body.boundary.free == 0) return {StaticSolver::cholesky, "none", "every component is given"};
   const bool asked = options.solver != StaticSolver::automatic;
@@ -135,7 +135,7 @@ template <int Dim>
 StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
   StaticPlan plan;
   const StaticProblem problem = pose_problem(body, options);
-  SolverChoice choice = choose_solver(body, problem, options);
+  StaticChoice choice = choose_solver(body, problem, options);
   plan.solver = choice.solver;
   plan.name = std::move(choice.name);
   plan.reason = std::move(choice.reason);
@@ -185,7 +185,7 @@ double least_body_memory(const Model& model) {
 }
 
 #define PERIMODE_STATIC_PLAN(D)                                                                       \
-  template SolverChoice choose_solver<D>(const Body<D>&, const StaticProblem&, const StaticOptions&); \
+  template StaticChoice choose_solver<D>(const Body<D>&, const StaticProblem&, const StaticOptions&); \
   template StaticPlan plan_static<D>(const Body<D>&, const StaticOptions&)
 PERIMODE_STATIC_PLAN(1);
 PERIMODE_STATIC_PLAN(2);

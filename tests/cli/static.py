@@ -262,6 +262,15 @@ for case_name, row in CASES.items():
     make_test(case_name, *row)
 
 
+class Mechanism(ProgramTest):
+    def test_bonds_along_the_axes_alone_do_not_hold_the_shape(self):
+        self.write("case.yaml", PLATE.replace("ratio: 3", "ratio: 1").replace("linear", "none"))
+        line = self.complaint(self.perimode("static", "case.yaml", "--set", "analysis.static.solver=cholesky"))
+        self.assertIn("case.yaml:15:", line)
+        self.assertIn("hold its shape", line)
+        self.assertEqual(self.files(), ["case.yaml"], "nothing is written")
+
+
 class NoSection(ProgramTest):
     def test_a_case_without_a_static_section(self):
         self.write("case.yaml", PLATE[: PLATE.index("analysis:")])
