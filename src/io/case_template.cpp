@@ -43,7 +43,7 @@ boundary:
 analysis:
   modal:
     modes: 10                   # the lowest 10, rigid ones counted | range: [0, 5000] in Hz | shift: 1000 in Hz
-    solver: auto                # auto | lanczos | arpack | dense
+    solver: auto                # auto | lanczos | chebyshev | inverse | arpack | dense
     certificate: auto           # proof that no mode is missing: auto | inertia | restart | none
     reference: none             # closed_form: compare with exact frequencies where they exist
 

@@ -33,7 +33,8 @@ class BlockNames {
     }
     std::string remedy = "define it in body.blocks";
     if (!names_.empty()) {
-      remedy = fmt::format("the nearest is {}", nearest_word(name, {names_.begin(), names_.end()}));
+      const std::string_view nearest = nearest_word(name, {names_.begin(), names_.end()});
+      remedy = nearest.empty() ? "choose one of them" : fmt::format("the nearest is {}", nearest);
     }
     invalid_input({fmt::format("the name of a block ({})", names_.empty() ? "none is defined" : some_names()),
                    fmt::format("'{}'", name), remedy, where});

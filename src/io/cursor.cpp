@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 
 namespace perimode::case_file {
 
@@ -65,9 +66,18 @@ std::string of_path(const std::string& path) { return path.empty() ? "the case" 
 }  // namespace
 
 std::string_view nearest_word(std::string_view name, const std::vector<std::string_view>& words) {
-  return *std::min_element(words.begin(), words.end(), [&](std::string_view a, std::string_view b) {
-    return edit_distance(name.substr(0, 80), a) < edit_distance(name.substr(0, 80), b);
-  });
+  const std::string_view start = name.substr(0, 80);
+  std::string_view nearest;
+  int least = std::numeric_limits<int>::max();
+  for (const std::string_view word : words) {
+    const int distance = edit_distance(start, word);
+    const bool alike = 2 * distance < static_cast<int>(std::max(start.size(), word.size())) ||
+                       (start.size() > 1 && word.starts_with(start));
+    if (!alike || distance >= least) continue;
+    nearest = word;
+    least = distance;
+  }
+  return nearest;
 }
 
 void Cursor::complain(const std::string& expected, const std::string& remedy) const {
@@ -77,7 +87,8 @@ void Cursor::complain(const std::string& expected, const std::string& remedy) co
 void Cursor::not_one_of(const std::vector<std::string_view>& words) const {
   std::string remedy = "choose one of them";
   if (node_->kind == CaseNode::Kind::scalar) {
-    remedy = fmt::format("the nearest is {}", nearest_word(node_->text, words));
+    const std::string_view nearest = nearest_word(node_->text, words);
+    if (!nearest.empty()) remedy = fmt::format("the nearest is {}", nearest);
   }
   complain(fmt::format("one of {}", fmt::join(words, ", ")), remedy);
 }
@@ -159,7 +170,9 @@ Section::Section(const Cursor& cursor, std::initializer_list<std::string_view> k
   }
   for (const CaseNode& child : cursor.node().children) {
     if (std::find(valid.begin(), valid.end(), child.key) != valid.end()) continue;
-    std::string remedy = fmt::format("the nearest valid key is {}", nearest_word(child.key, valid));
+    const std::string_view nearest = nearest_word(child.key, valid);
+    std::string remedy =
+        nearest.empty() ? "choose one of them" : fmt::format("the nearest valid key is {}", nearest);
     if (child.key.find(':') != std::string::npos) remedy += " (a space must follow the ':')";
     if (child.key == "<<") remedy = "merge keys are not read: use an anchor for a whole value";
     invalid_input({fmt::format("a key of {} ({})", of_path(cursor.path()), fmt::join(valid, ", ")),

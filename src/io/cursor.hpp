@@ -91,7 +91,8 @@ class Section {
   Cursor cursor_;
 };
 
-/// The word with the least edit distance to `name` (insert, delete, replace, swap neighbours).
+/// The word with the least edit distance to `name` (insert, delete, replace, swap neighbours), among those it
+/// begins or whose distance is less than half their length; empty where none is that near.
 [[nodiscard]] std::string_view nearest_word(std::string_view name,
                                             const std::vector<std::string_view>& words);
 

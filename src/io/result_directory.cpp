@@ -57,6 +57,8 @@ void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
 }
 
 ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
+  if (target.empty())
+    invalid_input({"a folder for the result", "an empty name", "give for example out/plate", {}});
   try {
     target_ = fs::weakly_canonical(fs::absolute(target));
     if (!target_.has_filename()) target_ = target_.parent_path();

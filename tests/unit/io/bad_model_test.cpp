@@ -241,6 +241,7 @@ const BadCase material_and_boundary[] = {
      {"nearest valid key is ramp"}},
     {"wall_face", "plate", "- { wall", "  - { wall: ^top, type: mirror }", {"one of x-, x+, y-, y+"}},
     {"wall_type", "plate", "- { wall", "  - { wall: y+, type: ^miror }", {"nearest is mirror"}},
+    {"wall_type_like_none", "plate", "- { wall", "  - { wall: y+, type: ^symmetry }", {"choose one of them"}},
     {"wall_on_periodic_axis", "plate", "- { wall", "  - { wall: ^x+, type: mirror }", {"periodic"}},
     {"two_walls_on_a_face",
      "plate",
