@@ -155,6 +155,12 @@ SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOpt
                    "use solver: auto",
                    {}});
   }
+  if (!needs_matrix(options.solver) && options.certificate == CertificateMethod::inertia) {
+    invalid_input({"certificate auto, restart or none for a solver without a factor",
+                   "inertia",
+                   "inertia is counted in a factor: use solver: auto or lanczos",
+                   {}});
+  }
   if (options.solver != ModalSolver::automatic) {
     choice.reason = "asked for";
     return choice;

@@ -87,6 +87,8 @@ TEST(SolverChoice, WeighsTheSolversAndSaysWhy) {
   ModalOptions inertia;
   inertia.certificate = CertificateMethod::inertia;
   EXPECT_EQ(choose_solver(block.size, 1.0, inertia).engine, ModalSolver::lanczos);
+  inertia.solver = ModalSolver::chebyshev;
+  EXPECT_THROW((void)choose_solver(block.size, 1.0, inertia), Error);
 }
 
 TEST(SolverChoice, KeepsWithinTheMemoryLimit) {
