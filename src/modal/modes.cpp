@@ -201,7 +201,7 @@ template <int Dim>
 void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
                           const ModalOptions& options, double scale, const Sink& sink) {
   sink.report("rigid modes");
-  const Eigen::MatrixXd rigid = rigid_modes(body, problem.action, problem.bound, problem.mass);
+  const Eigen::MatrixXd rigid = rigid_modes(body, problem.action, problem.mass);
   EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
   wanted.negative_shift = -1e-2 * scale;
   wanted.engine = result.choice.engine;

@@ -75,7 +75,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   const bool symmetric = plan.asymmetry <= 1e-12;
   const SolverChoice choice = choose_solver(modal_size(body, symmetric), bound / mass.minCoeff(), options);
   plan.reason = choice.reason;
-  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, action, bound, mass).cols());
+  if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, action, mass).cols());
 
   const double dofs = plan.dofs;
   const double wanted = options.modes.value_or(20);

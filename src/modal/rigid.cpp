@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/modal/rigid.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
+#include "perimode/assembly/assemble.hpp"
 #include "perimode/bonds/connectivity.hpp"
 
 namespace perimode {
@@ -28,10 +30,26 @@ double motion(int k, int a, const Point<Dim>& x) {
   return 0.0;
 }
 
+/// Stiffness of all bonds of the particle of every free dof, N/m.
+template <int Dim>
+std::vector<double> own_stiffness(const Body<Dim>& body) {
+  std::vector<double> own(static_cast<std::size_t>(body.boundary.free), 1.0);
+  for (Index i = 0; i < body.count(); ++i) {
+    double sum = 0.0;
+    for_each_bond(body.bonds, i, Which::alive,
+                  [&](const BondEnd<Dim>& end) { sum += bond_stiffness(body, i, end); });
+    for (int a = 0; a < Dim; ++a) {
+      const Index d = body.boundary.free_number[static_cast<std::size_t>(i) * Dim + a];
+      if (d >= 0 && sum > 0.0) own[static_cast<std::size_t>(d)] = sum;
+    }
+  }
+  return own;
+}
+
 }  // namespace
 
 template <int Dim>
-Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffness, double bound,
+Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffness,
                             const Eigen::VectorXd& mass) {
   constexpr int R = motions<Dim>;
   using Small = Eigen::Matrix<double, R, R>;
@@ -60,27 +78,30 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffne
   }
   const Eigen::MatrixXd kq = multiply(stiffness, q);
 
-  // Per piece: among combinations c with |q c|_M = 1, those with |K q c|_{M^-1} at round-off.
+  // Per piece: the metric of mass, that of displacements, and that of forces, every row of K against the
+  // stiffness of the particle's own bonds: a soft support is seen however stiff the rest of the body is.
   std::vector<Small> gram(pieces.count, Small::Zero());
+  std::vector<Small> place(pieces.count, Small::Zero());
   std::vector<Small> force(pieces.count, Small::Zero());
+  const std::vector<double> own = own_stiffness(body);
   for (Index d = 0; d < mass.size(); ++d) {
     gram[piece_of_dof[d]] += mass[d] * q.row(d).transpose() * q.row(d);
-    force[piece_of_dof[d]] += kq.row(d).transpose() * kq.row(d) / mass[d];
+    place[piece_of_dof[d]] += q.row(d).transpose() * q.row(d);
+    force[piece_of_dof[d]] += kq.row(d).transpose() * kq.row(d) / (own[d] * own[d]);
   }
-  const double largest = bound / std::max(mass.minCoeff(), 1e-300);  // bounds lambda_max
   struct Found {
     Index piece;
     Eigen::Matrix<double, R, 1> combination;
   };
   std::vector<Found> found;
   for (Index p = 0; p < pieces.count; ++p) {
-    // Motions scaled to unit kinetic size first, so that a rotation is not lost beside a translation.
+    // Motions scaled to unit size first, so that a rotation is not lost beside a translation.
     Small unit = Small::Zero();
     for (int k = 0; k < R; ++k) {
-      const double size = std::sqrt(gram[p](k, k));
+      const double size = std::sqrt(place[p](k, k));
       if (size > 0.0) unit(k, k) = 1.0 / size;
     }
-    const Eigen::SelfAdjointEigenSolver<Small> metric(unit * gram[p] * unit);
+    const Eigen::SelfAdjointEigenSolver<Small> metric(unit * place[p] * unit);
     Eigen::Matrix<double, R, Eigen::Dynamic> basis(R, 0);
     for (int k = 0; k < R; ++k) {
       if (metric.eigenvalues()[k] <= 1e-10)
@@ -90,11 +111,17 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffne
     }
     const Eigen::MatrixXd energy = basis.transpose() * force[p] * basis;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> null(energy);
-    // Squares of about 1e-6 lambda_max at least for motions that are held, of 1e-8 by round-off for free
-    // ones; ascending, so the free ones come first.
-    const Eigen::Index free = (null.eigenvalues().array() <= std::pow(1e-7 * largest, 2)).count();
+    // |D^-1 K q| / |q|, D the stiffness of every particle's own bonds: about (share of rows at the
+    // support)^1/2 times a bond's share of a particle for motions that are held, 1e-15 by round-off for free
+    // ones (more for bodies far from the origin); ascending, so the free ones come first.
+    // Products of forces carry round-off of the largest of them.
+    constexpr double round_off = 1e-9, of_products = 1e-13;
+    const double zero = std::max(round_off * round_off, of_products * null.eigenvalues().maxCoeff());
+    const Eigen::Index free = (null.eigenvalues().array() <= zero).count();
     if (free == 0) continue;
     Eigen::MatrixXd combination = basis * null.eigenvectors().leftCols(free);
+    const Eigen::LLT<Eigen::MatrixXd> root(combination.transpose() * gram[p] * combination);
+    combination = root.matrixU().solve<Eigen::OnTheRight>(combination).eval();  // M-orthonormal
     // Any basis will do; the one that starts with pure translations reads best.
     const Eigen::MatrixXd part = combination.transpose() * gram[p] * unit;
     std::vector<Eigen::Index> moving;
@@ -115,11 +142,8 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffne
   return modes;
 }
 
-template Eigen::MatrixXd rigid_modes<1>(const Body<1>&, const LinearOperator&, double,
-                                        const Eigen::VectorXd&);
-template Eigen::MatrixXd rigid_modes<2>(const Body<2>&, const LinearOperator&, double,
-                                        const Eigen::VectorXd&);
-template Eigen::MatrixXd rigid_modes<3>(const Body<3>&, const LinearOperator&, double,
-                                        const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<1>(const Body<1>&, const LinearOperator&, const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<2>(const Body<2>&, const LinearOperator&, const Eigen::VectorXd&);
+template Eigen::MatrixXd rigid_modes<3>(const Body<3>&, const LinearOperator&, const Eigen::VectorXd&);
 
 }  // namespace perimode

@@ -111,7 +111,7 @@ StaticProblem pose_problem(const Body<Dim>& body, const StaticOptions& options) 
   p.rhs = free_load - free_held;
   p.scale = std::max(free_load.norm(), free_held.norm());
   p.mass = lumped_mass(body);
-  p.rigid = rigid_modes(body, p.stiffness, p.bound, p.mass);
+  p.rigid = rigid_modes(body, p.stiffness, p.mass);
   if (p.symmetric()) {
     check_equilibrium(body, p);
   } else if (p.rigid.cols() > 0) {
