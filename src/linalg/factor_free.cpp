@@ -57,41 +57,55 @@ void conclude(const Search& search, SpectralTransform& op, SearchResult& found, 
                      .solves = static_cast<int>(found.probe_columns)};
 }
 
+/// The filter of the next trial: where it begins to hold the spectrum down, and the degree.
+struct Edge {
+  double at = 0.0;
+  bool linear = false;  ///< degree 1: in the order of the eigenvalues everywhere
+};
+
 /// Block Lanczos on a filter with its edge somewhat above the wanted modes. The edge is found on the way:
 /// Ritz values bound eigenvalues from above, so an edge far above those wanted is lowered, and one they do
-/// not stay below is raised.
+/// not stay below is raised. Beyond the edge a filter mixes the order of the eigenvalues; where even the
+/// highest edge lies too low the filter of degree 1 takes its place.
 SearchResult filtered(Search& search, EigenResult& out) {
   const Eigen::VectorXd& mass = *search.problem.mass;
   double top = spectrum_top(search.action, mass, search.options.seed + 17);
   if (search.options.top > 0.0) top = std::min(top, search.options.top);
   top *= 1.001;
   const double highest = 0.25 * top;
-  double edge = search.options.edge > 0.0 ? std::min(search.options.edge, highest) : highest;
+  Edge edge{search.options.edge > 0.0 ? std::min(search.options.edge, highest) : highest};
+  // No lower: mechanisms at zero would draw the edge down without end.
+  const double lowest = search.options.edge > 0.0 ? 1e-5 * edge.at : 1e-10 * top;
   Eigen::MatrixXd start(mass.size(), 0);
   constexpr int most_filters = 40;
   for (int trial = 0;; ++trial) {
-    const int degree = filter_degree(edge, top);
-    SpectralTransform op = chebyshev_filter(search.action, mass, edge, top, degree);
-    double better = 0.0;
+    const int degree = edge.linear ? 1 : filter_degree(edge.at, top);
+    SpectralTransform op = chebyshev_filter(search.action, mass, edge.at, top, degree);
+    const Edge higher = edge.at < highest ? Edge{std::min(4.0 * edge.at, highest)} : Edge{highest, true};
+    Edge better;
     const Eigen::Index last = std::max<Eigen::Index>(search.wanted.count, 1) - 1;
     search.settings.give_up = [&](const Eigen::VectorXd& theta) {
-      if (trial == most_filters || theta.size() <= last) return false;
+      if (trial >= most_filters || degree == 1 || theta.size() <= last) return false;
       constexpr double wasteful = 8.0, room = 2.0, close = 0.8;
       const double seen = op.eigenvalue(theta[last]);
       const bool full = theta.size() + 2 * search.settings.block > search.settings.columns;
-      if (wasteful * seen < edge) better = room * seen;
-      if (full && seen > close * edge && edge < highest) better = std::min(4.0 * edge, highest);
-      return better > 0.0;
+      if (wasteful * std::max(seen, lowest) < edge.at) better = {room * std::max(seen, lowest)};
+      if (full && seen > close * edge.at) better = higher;
+      return better.at > 0.0;
     };
     SearchResult found;
     found.pairs = block_lanczos(op, search.known, start, search.wanted, search.settings);
-    if (better == 0.0) {
+    const Eigen::VectorXd& theta = found.pairs.theta;
+    if (degree > 1 && found.pairs.converged && theta.size() > last && !(op.eigenvalue(theta[last]) < edge.at))
+      better = trial < most_filters ? higher : Edge{highest, true};
+    out.products += op.applied * degree;
+    if (better.at == 0.0) {
       search.settings.give_up = {};
+      const Offset before = op.applied;
       conclude(search, op, found, out);
-      out.products += op.applied * degree;
+      out.products += (op.applied - before) * degree;
       return found;
     }
-    out.products += op.applied * degree;
     const Eigen::Index some = std::min<Eigen::Index>(search.settings.block, found.pairs.vector.cols());
     start = found.pairs.vector.leftCols(some);
     edge = better;

@@ -183,7 +183,19 @@ void complete(SpectralTransform& op, const Eigen::MatrixXd& known, const Wanted&
     if (seen.found.cols() == 0) continue;
     sink.report("further copies");
     again.block = std::min(widest_block, 2 * again.block);
+    if (again.columns == 0) again.columns = std::max(140, 10 * again.block);
+    bool cramped = false;  // more copies than half of the basis
+    again.give_up = [&](const Eigen::VectorXd& theta) {
+      const Eigen::Index above = (theta.cwiseAbs().array() >= result.cut).count();
+      cramped = 2 * above > again.columns && again.columns < op.size() - found.cols();
+      return cramped;
+    };
     EigenPairs fresh = block_lanczos(op, found, seen.found, {.count = 0, .floor = result.cut}, again);
+    while (cramped) {
+      cramped = false;
+      again.columns *= 2;
+      fresh = block_lanczos(op, found, seen.found, {.count = 0, .floor = result.cut}, again);
+    }
     if (!fresh.converged) {
       result.message = "the search for further copies of repeated eigenvalues did not converge";
       return;

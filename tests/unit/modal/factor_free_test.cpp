@@ -116,6 +116,33 @@ INSTANTIATE_TEST_SUITE_P(Bodies, FactorFree,
                                           testing::Values(ModalSolver::chebyshev, ModalSolver::inverse)),
                          specimen_name);
 
+TEST(FactorFree, MostOfAllModes) {
+  // More modes than lie below the highest edge of a filter, beyond which it mixes their order.
+  const Model plate = clamped({16, 14});
+  for (const int count : {120, 250, 350}) {
+    const ModalResult expected = modes_of(plate, ModalSolver::dense, count);
+    const ModalResult got = modes_of(plate, ModalSolver::chebyshev, count);
+    ASSERT_EQ(got.status, EigenStatus::converged) << got.message;
+    ASSERT_EQ(got.count(), count);
+    // Rayleigh quotients, right to round-off of the largest.
+    const double error = (got.eigenvalue - expected.eigenvalue).cwiseAbs().maxCoeff();
+    EXPECT_LE(error, 1e-12 * got.largest) << count;
+  }
+}
+
+TEST(FactorFree, MoreCopiesThanABasisHolds) {
+  // A horizon below 2^1/2 spacings: 20 + 18 bars side by side, whose modes at zero and at every other
+  // frequency come 20- and 18-fold.
+  const Model bars = box_model({20, 18}, 1.0, 1.2);
+  const ModalResult expected = modes_of(bars, ModalSolver::dense, 10);
+  for (const ModalSolver solver : {ModalSolver::chebyshev, ModalSolver::inverse}) {
+    const ModalResult got = modes_of(bars, solver, 10);
+    ASSERT_EQ(got.status, EigenStatus::converged) << got.message;
+    EXPECT_EQ(got.eigenvalue, expected.eigenvalue);  // zero, all of them
+    EXPECT_EQ(got.mechanisms, expected.mechanisms);
+  }
+}
+
 TEST(FactorFree, RefusesWhatNeedsAFactor) {
   ModalOptions options;
   options.solver = ModalSolver::chebyshev;
