@@ -292,6 +292,11 @@ std::vector<Index> particle_of_free_dof(const Body<Dim>& body) {
 }
 
 template <int Dim>
+Eigen::MatrixXd particle_positions(const Body<Dim>& body) {
+  return Eigen::Map<const Eigen::MatrixXd>(body.particles.position[0].data(), Dim, body.count());
+}
+
+template <int Dim>
 Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displacement) {
   const Index n = body.count();
   // The fields of one dof lie side by side; partial sums per particle are added in order below.
@@ -337,6 +342,7 @@ Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displa
   template BlockCsr assemble_stiffness<D>(const Body<D>&);             \
   template Eigen::VectorXd lumped_mass<D>(const Body<D>&);             \
   template std::vector<Index> particle_of_free_dof<D>(const Body<D>&); \
+  template Eigen::MatrixXd particle_positions<D>(const Body<D>&);      \
   template Eigen::VectorXd bond_energy<D>(const Body<D>&, const Eigen::MatrixXd&)
 PERIMODE_ASSEMBLE(1);
 PERIMODE_ASSEMBLE(2);

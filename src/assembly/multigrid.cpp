@@ -26,22 +26,6 @@ bool can_be_coarsened(const Body<Dim>& body) {
   return std::all_of(cells.begin(), cells.end(), [](Index n) { return n >= fewest_layers; });
 }
 
-template <class T>
-double bytes_of(const std::vector<T>& v) {
-  return static_cast<double>(v.size() * sizeof(T));
-}
-
-template <int Dim>
-double body_bytes(const Body<Dim>& body) {
-  const auto& bonds = std::get<GridBonds<Dim>>(body.bonds);
-  return bytes_of(body.particles.position) + bytes_of(body.particles.volume) +
-         bytes_of(body.particles.block) + bytes_of(body.particles.cell) + bytes_of(bonds.occupant) +
-         bytes_of(bonds.home) + bytes_of(bonds.ghosts) + bytes_of(bonds.alive) +
-         bytes_of(body.constants.factor) + bytes_of(body.boundary.free_number) +
-         bytes_of(body.boundary.given) + bytes_of(body.boundary.image) + bytes_of(body.boundary.coefficient) +
-         bytes_of(body.boundary.value);
-}
-
 /// One thread while it lives: the dense kernels beneath a factorisation round differently for each number of
 /// threads.
 class OneThread {
@@ -60,7 +44,8 @@ class OneThread {
 template <int Dim>
 CholeskyFactor factored(const Body<Dim>& body) {
   const Csr matrix = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
-  CholeskyFactor factor(matrix, particle_of_free_dof(body));
+  CholeskyFactor factor = CholeskyFactor::with_order(
+      matrix, dissection_order(matrix, particle_of_free_dof(body), particle_positions(body)));
   const OneThread guard;
   double shift = 0.0;
   for (int attempt = 0; attempt < 6; ++attempt) {

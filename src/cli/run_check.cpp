@@ -14,7 +14,7 @@ namespace {
 /// A static analysis alone: no modes are predicted where none are asked for.
 template <int Dim>
 int check_static(const Case& input, Console& console) {
-  refuse_if_too_large(least_body_memory(input.model), "the body");
+  refuse_if_too_large(least_body_bytes(input.model), "the body");
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
   const StaticPlan plan = [&] {
@@ -36,7 +36,7 @@ int check_static(const Case& input, Console& console) {
 template <int Dim>
 int check(const Case& input, Console& console) {
   if (input.statics && !input.modal) return check_static<Dim>(input, console);
-  refuse_if_too_large(least_memory(input.model), "the body");
+  refuse_if_too_large(least_body_bytes(input.model), "the body");
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
   const ModalPlan plan = [&] {

@@ -90,7 +90,7 @@ template <int Dim>
 int run(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const ModalOptions options = *input.modal;
-  refuse_if_too_large(least_memory(input.model), "the body");
+  refuse_if_too_large(least_body_bytes(input.model), "the body");
   ResultDirectory folder(arguments.output.value_or(input.output.directory), arguments.force);
   set_unfinished_result(folder.unfinished());
 

@@ -33,7 +33,7 @@ StaticResult solve_checked(const Body<Dim>& body, const Case& input, double leas
 template <int Dim>
 int run(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
-  const double least_bytes = least_body_memory(input.model);
+  const double least_bytes = least_body_bytes(input.model);
   refuse_if_too_large(least_bytes, "the body");
   ResultDirectory folder(arguments.output.value_or(input.output.directory), arguments.force);
   set_unfinished_result(folder.unfinished());

@@ -348,8 +348,7 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   if (needs_matrix(result.choice.engine)) {
     problem.stiffness = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
     problem.particle = particle_of_free_dof(body);
-    problem.position =
-        Eigen::Map<const Eigen::MatrixXd>(body.particles.position[0].data(), Dim, body.count());
+    problem.position = particle_positions(body);
     problem.action = as_operator(problem.stiffness);
     problem.bound = norm_inf(problem.stiffness);
     result.nonzeros = problem.stiffness.nonzeros();

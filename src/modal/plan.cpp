@@ -20,18 +20,6 @@ namespace {
 constexpr double unsymmetric_dense_limit = 1500;
 
 template <int Dim>
-double body_bytes(const Body<Dim>& body) {
-  double bytes = static_cast<double>(body.count()) * (Dim * (8.0 + 8.0 + 4.0) + 8.0 + 4.0 + 4.0);
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
-    bytes += 4.0 * static_cast<double>(grid->occupant.size()) + 8.0 * static_cast<double>(grid->alive.size());
-  } else {
-    const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
-    bytes += static_cast<double>(cloud.neighbour.size()) * (4.0 + 8.0 * (Dim + 3));
-  }
-  return bytes;
-}
-
-template <int Dim>
 void warn_of_mechanisms(const Body<Dim>& body, ModalPlan& plan) {
   if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
     const double m = grid->family.horizon / grid->family.spacing;
@@ -93,19 +81,20 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
     held += block_bytes + 12.0 * static_cast<double>(plan.nonzeros) + 16.0 * dofs;
     const bool dense = choice.engine == ModalSolver::dense || (!symmetric && dofs <= unsymmetric_dense_limit);
     const auto order = [&] {
-      const Eigen::Map<const Eigen::MatrixXd> place(body.particles.position[0].data(), Dim, body.count());
-      return dissection_order(k, particle_of_free_dof(body), place);
+      return dissection_order(k, particle_of_free_dof(body), particle_positions(body));
     };
     if (dense) {
       plan.solver = "dense";
-      solving = (symmetric ? 3.0 : 8.0) * 8.0 * dofs * dofs;
+      solving = (symmetric ? 3.8 : 8.0) * 8.0 * dofs * dofs;
     } else if (symmetric) {
       plan.solver = choice.engine == ModalSolver::arpack  ? "arpack"
                     : choice.engine == ModalSolver::slepc ? "slepc"
                                                           : "lanczos";
       plan.fill = predict_fill_with_order(k, order());
-      const double basis = std::max(100.0, 3.0 * wanted + 40.0) + 2.0 * plan.rigid;
-      solving = plan.fill.peak_bytes + 8.0 * dofs * (2.2 * basis + 3.0 * wanted);
+      const double basis = choice.engine == ModalSolver::arpack
+                               ? 5.0 * wanted
+                               : 2.2 * std::max(100.0, 3.0 * wanted + 40.0) + 3.0 * wanted;
+      solving = plan.fill.peak_bytes + 8.0 * dofs * (basis + 4.0 * plan.rigid);
     } else {
       plan.solver = "arpack";
       plan.fill = predict_fill_with_order(k, order());
@@ -115,16 +104,11 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   } else {
     plan.solver = choice.engine == ModalSolver::chebyshev ? "chebyshev" : "inverse";
     solving = factor_free_bytes(dofs, wanted);
+    if (choice.engine == ModalSolver::inverse) solving += 15.0 * 8.0 * dofs;
   }
-  constexpr double program_bytes = 80e6;  // code, libraries and the work space of the BLAS
+  constexpr double program_bytes = 38e6;  // code, libraries and the work space of the BLAS
   plan.memory_bytes = held + solving + program_bytes;
   return plan;
-}
-
-double least_memory(const Model& model) {
-  const BodySize size = estimate_size(model);
-  const double d = model.dimension;
-  return size.particles * (20.0 + 28.0 * d + 0.125 * size.family);
 }
 
 template <int Dim>

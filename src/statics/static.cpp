@@ -45,7 +45,8 @@ Solution solve_cholesky(const Body<Dim>& body, const StaticProblem& problem, Sta
   sink.report("assembling");
   const Csr k = scalar_csr(assemble_stiffness(body), dofs.number);
   sink.report("ordering");
-  CholeskyFactor factor(k, dofs.particle);
+  CholeskyFactor factor =
+      CholeskyFactor::with_order(k, dissection_order(k, dofs.particle, particle_positions(body)));
   sink.report("factoring");
   if (factor.factorize(k, 0.0, Eigen::VectorXd::Zero(k.rows)) != FactorStatus::done) mechanism();
   result.factor_nonzeros = factor.fill().nonzeros;

@@ -79,24 +79,6 @@ std::pair<StaticSolver, std::string> automatic(const Body<Dim>& body, double tol
   return {StaticSolver::jacobi, counted};
 }
 
-template <int Dim>
-double body_memory(const Body<Dim>& body) {
-  const double n = body.count();
-  double bytes = n * (8.0 * Dim + 8.0 + 4.0 + 4.0 + 12.0 * Dim) +
-                 8.0 * static_cast<double>(body.constants.factor.size());
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
-    bytes +=
-        4.0 * n + 4.0 * static_cast<double>(grid->occupant.size()) +
-        8.0 * static_cast<double>(grid->alive.size()) +
-        static_cast<double>(grid->ghosts.size()) * static_cast<double>(sizeof(Ghost<Dim>) + 4 + 16 * Dim);
-  } else {
-    const auto& cloud = std::get<CloudBonds<Dim>>(body.bonds);
-    constexpr double search = 20.0;  // per bond end, while neighbours are searched
-    bytes += static_cast<double>(cloud.neighbour.size()) * (4.0 + 8.0 * (Dim + 3) + search);
-  }
-  return bytes;
-}
-
 }  // namespace
 
 template <int Dim>
@@ -153,11 +135,10 @@ StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
   if (plan.dofs > 0 && (plan.solver == StaticSolver::cholesky || plan.solver == StaticSolver::lu)) {
     const FactorDofs factor = factor_dofs(body, problem.rigid);
     BlockCsr blocks = assemble_stiffness(body);
-    // The last 8: the graph that is ordered.
-    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim + 8.0);
+    const double block_bytes = static_cast<double>(blocks.blocks()) * (4.0 + 8.0 * Dim * Dim);
     const Csr k = scalar_csr(blocks, factor.number);
     blocks = {};
-    plan.fill = predict_fill(k, factor.particle);
+    plan.fill = predict_fill_with_order(k, dissection_order(k, factor.particle, particle_positions(body)));
     // UMFPACK keeps L, U and working copies; its column order fills more than a symmetric one.
     const double factored =
         plan.solver == StaticSolver::lu ? 6.3 * plan.fill.factor_bytes : plan.fill.peak_bytes;
@@ -170,18 +151,12 @@ StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options) {
       // Three vectors more on the finest grid, and coarser ones that hold 1 / (2^Dim - 1) of it together.
       held += 3.0;
       const double coarser = 1.0 / ((1 << Dim) - 1);
-      solving += coarser * (body_memory(body) + operator_bytes(body) + (7.0 + Dim) * vector);
+      solving += coarser * (body_bytes(body) + operator_bytes(body) + (7.0 + Dim) * vector);
     }
   }
   constexpr double program_bytes = 36e6;  // code, libraries and their work space
-  plan.memory_bytes = body_memory(body) + solving + held * vector + program_bytes;
+  plan.memory_bytes = body_bytes(body) + solving + held * vector + program_bytes;
   return plan;
-}
-
-double least_body_memory(const Model& model) {
-  const BodySize size = estimate_size(model);
-  // Positions, volumes, maps, the alive bits, and some ten vectors.
-  return size.particles * (28.0 + 28.0 * model.dimension + size.family / 8.0 + 80.0 * model.dimension);
 }
 
 #define PERIMODE_STATIC_PLAN(D)                                                                       \

@@ -34,6 +34,10 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Index> particle_of_free_dof(const Body<Dim>& body);
 
+/// Places of the particles, m (Dim x particles), for dissection_order.
+template <int Dim>
+[[nodiscard]] Eigen::MatrixXd particle_positions(const Body<Dim>& body);
+
 /// Strain energies of displacements of all particle dofs (dofs x fields, m) summed bond by bond,
 ///   U = 1/2 sum_b k_b (n . (u_j - u_i))^2, J,
 /// bonds to ghosts counted as u_i . (their force on i) / 2. All terms between particles are positive, so the

@@ -53,6 +53,14 @@ struct BodySize {
 };
 [[nodiscard]] BodySize estimate_size(const Model& model);
 
+/// Bytes a body holds (a cloud: took while its neighbours were searched).
+template <int Dim>
+[[nodiscard]] double body_bytes(const Body<Dim>& body);
+
+/// Bytes that the body of a model and some ten vectors on it will at least take, from the model alone: tells
+/// a case that cannot fit before anything is built. 0 for clouds.
+[[nodiscard]] double least_body_bytes(const Model& model);
+
 /// Stiffness k_b = c beta V_i V_j / |xi| of the bond seen from particle i, N/m: force per stretch
 /// displacement along the bond. docs/theory/01_bond.md eq. (2). Cost O(1).
 template <int Dim>

@@ -34,10 +34,6 @@ struct ModalPlan {
 template <int Dim>
 [[nodiscard]] ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options);
 
-/// Bytes a body and one field on it will at least take, from the model alone: tells a case that cannot fit
-/// before anything is built. 0 for clouds.
-[[nodiscard]] double least_memory(const Model& model);
-
 /// The memory of plan_modes to within a factor of about 2, without assembling or ordering anything.
 template <int Dim>
 [[nodiscard]] double rough_memory(const Body<Dim>& body, const ModalOptions& options);

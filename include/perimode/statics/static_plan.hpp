@@ -29,8 +29,4 @@ struct StaticPlan {
 template <int Dim>
 [[nodiscard]] StaticPlan plan_static(const Body<Dim>& body, const StaticOptions& options);
 
-/// Bytes a body and an operator on it will at least take, from the model alone: tells a case that cannot fit
-/// before anything is built. 0 for clouds.
-[[nodiscard]] double least_body_memory(const Model& model);
-
 }  // namespace perimode
