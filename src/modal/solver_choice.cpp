@@ -90,6 +90,14 @@ SolverCost inverse_cost(const ModalSize& size, const ModalOptions& options) {
   return cost;
 }
 
+std::string costs(const SolverCost& cost) {
+  const double gigabytes = cost.bytes * 1e-9;
+  return fmt::format(
+      "{} s and {} GB",
+      cost.seconds < 10.0 ? fmt::format("{:.2g}", cost.seconds) : fmt::format("{:.0f}", cost.seconds),
+      gigabytes < 10.0 ? fmt::format("{:.2g}", gigabytes) : fmt::format("{:.0f}", gigabytes));
+}
+
 }  // namespace
 
 DissectionCost dissection_cost(const std::array<double, 3>& cells, double reach, int dofs_per_cell) {
@@ -200,11 +208,9 @@ SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOpt
   choice.engine = best.solver == "lanczos"     ? ModalSolver::lanczos
                   : best.solver == "chebyshev" ? ModalSolver::chebyshev
                                                : ModalSolver::inverse;
-  choice.reason = fmt::format("predicted {:.2g} s and {:.2g} GB", best.seconds, best.bytes * 1e-9);
-  for (std::size_t k = 1; k < choice.considered.size(); ++k) {
-    choice.reason += fmt::format(", {} {:.2g} s and {:.2g} GB", choice.considered[k].solver,
-                                 choice.considered[k].seconds, choice.considered[k].bytes * 1e-9);
-  }
+  choice.reason = "predicted " + costs(best);
+  for (std::size_t k = 1; k < choice.considered.size(); ++k)
+    choice.reason += ", " + choice.considered[k].solver + " " + costs(choice.considered[k]);
   return choice;
 }
 
