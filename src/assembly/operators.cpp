@@ -15,23 +15,6 @@ namespace perimode {
 
 namespace {
 
-/// Displacements of particles and ghosts side by side, ghosts by the affine map with its given values.
-template <int Dim>
-Eigen::VectorXd with_ghosts(const Body<Dim>& body, const Eigen::VectorXd& u) {
-  const auto ghosts = static_cast<Eigen::Index>(body.boundary.image.size());
-  Eigen::VectorXd all(u.size() + ghosts * Dim);
-  all.head(u.size()) = u;
-  for (Eigen::Index g = 0; g < ghosts; ++g) {
-    for (int a = 0; a < Dim; ++a) {
-      const std::size_t d = static_cast<std::size_t>(g) * Dim + a;
-      all[u.size() + g * Dim + a] =
-          body.boundary.coefficient[d] * u[static_cast<Eigen::Index>(body.boundary.image[g]) * Dim + a] +
-          body.boundary.value[d];
-    }
-  }
-  return all;
-}
-
 /// Blocked rows over all dofs of the particles; fixed ones are zero on the way in and left out on the way
 /// out.
 template <int Dim>
@@ -144,15 +127,15 @@ double operator_bytes(const Body<Dim>& body, StiffnessForm form) {
 
 template <int Dim>
 Eigen::VectorXd internal_force(const Body<Dim>& body, const Eigen::VectorXd& displacement) {
-  const Eigen::VectorXd u = with_ghosts(body, displacement);
   Eigen::VectorXd force(displacement.size());
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < body.count(); ++i) {
-    const Point<Dim> here = u.segment<Dim>(static_cast<Eigen::Index>(i) * Dim);
+    const Point<Dim> here = displacement.segment<Dim>(static_cast<Eigen::Index>(i) * Dim);
     Point<Dim> sum = Point<Dim>::Zero();
     for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
       const Point<Dim> n = end.xi / end.length;
-      const Point<Dim> relative = here - u.segment<Dim>(static_cast<Eigen::Index>(end.neighbour) * Dim);
+      const Point<Dim> relative =
+          here - partner_displacement(body.boundary, displacement.data(), end.neighbour, body.count());
       sum += bond_stiffness(body, i, end) * n.dot(relative) * n;
     });
     force.segment<Dim>(static_cast<Eigen::Index>(i) * Dim) = sum;

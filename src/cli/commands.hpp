@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "console.hpp"
@@ -19,6 +20,19 @@ struct Arguments {
   bool matrices = false;                             ///< also write K.mtx and M.mtx
   std::optional<std::filesystem::path> template_to;  ///< `new`: a file instead of standard output
 };
+
+/// run(std::integral_constant<int, Dim>) with the Dim of a case's body.
+template <class Run>
+int with_dimension(int dimension, Run&& run) {
+  switch (dimension) {
+    case 1:
+      return run(std::integral_constant<int, 1>());
+    case 2:
+      return run(std::integral_constant<int, 2>());
+    default:
+      return run(std::integral_constant<int, 3>());
+  }
+}
 
 /// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal. Bad input and a lacking
 /// environment are thrown as Error.

@@ -80,14 +80,8 @@ int check(const Case& input, Console& console) {
 
 int run_check(const Arguments& arguments, Console& console) {
   const Case input = read_case(arguments.case_file, arguments.set);
-  switch (input.model.dimension) {
-    case 1:
-      return check<1>(input, console);
-    case 2:
-      return check<2>(input, console);
-    default:
-      return check<3>(input, console);
-  }
+  return with_dimension(input.model.dimension,
+                        [&](auto dimension) { return check<dimension.value>(input, console); });
 }
 
 }  // namespace perimode::cli

@@ -158,14 +158,8 @@ int run_modal(const Arguments& arguments, Console& console) {
                    "add `analysis: { modal: { modes: 20 } }`",
                    {arguments.case_file.string(), 0, 0}});
   }
-  switch (input.model.dimension) {
-    case 1:
-      return run<1>(input, arguments, console);
-    case 2:
-      return run<2>(input, arguments, console);
-    default:
-      return run<3>(input, arguments, console);
-  }
+  return with_dimension(input.model.dimension,
+                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
 }
 
 }  // namespace perimode::cli

@@ -89,14 +89,8 @@ int run_static(const Arguments& arguments, Console& console) {
                    "add `analysis: { static: { loads: [ { body_force: [...] } ] } }`",
                    {arguments.case_file.string(), 0, 0}});
   }
-  switch (input.model.dimension) {
-    case 1:
-      return run<1>(input, arguments, console);
-    case 2:
-      return run<2>(input, arguments, console);
-    default:
-      return run<3>(input, arguments, console);
-  }
+  return with_dimension(input.model.dimension,
+                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
 }
 
 }  // namespace perimode::cli

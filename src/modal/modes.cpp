@@ -29,20 +29,8 @@ double to_eigenvalue(double hz) { return std::pow(2.0 * std::numbers::pi * hz, 2
 /// (delta/(4 L))^2 needs no material data.
 template <int Dim>
 double eigenvalue_scale(const Body<Dim>& body, double largest) {
-  Point<Dim> low = body.particles.position[0];
-  Point<Dim> high = low;
-  for (const auto& x : body.particles.position) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  double horizon = 0.0;
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
-    horizon = grid->family.horizon;
-  } else {
-    for (double h : std::get<CloudBonds<Dim>>(body.bonds).horizon) horizon = std::max(horizon, h);
-  }
-  const double side = std::max((high - low).maxCoeff(), horizon);
-  return largest > 0.0 && side > 0.0 ? largest * std::pow(horizon / (4.0 * side), 2) : 1.0;
+  const double length = std::max(1.0, horizons_long(body));
+  return largest > 0.0 ? largest * std::pow(1.0 / (4.0 * length), 2) : 1.0;
 }
 
 struct Problem {

@@ -22,24 +22,6 @@ constexpr double plane_cloud_dofs = 200000.0;
 /// Products with K that a solution with V-cycles takes, all levels together.
 constexpr double multigrid_products = 100.0;
 
-/// Length of the body in horizons, its largest extent.
-template <int Dim>
-double horizons_long(const Body<Dim>& body) {
-  Point<Dim> low = body.particles.position.front();
-  Point<Dim> high = low;
-  for (const auto& x : body.particles.position) {
-    low = low.cwiseMin(x);
-    high = high.cwiseMax(x);
-  }
-  double horizon = 0.0;
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
-    horizon = grid->family.horizon;
-  } else {
-    for (double h : std::get<CloudBonds<Dim>>(body.bonds).horizon) horizon = std::max(horizon, h);
-  }
-  return horizon > 0.0 ? (high - low).maxCoeff() / horizon : 0.0;
-}
-
 /// Iterations of block-Jacobi conjugate gradients, as counted for squares and cubes held at one face:
 /// 0.7 ln(2 / tolerance) times the length in horizons, the square root of the condition number.
 double jacobi_iterations(double horizons, double tolerance) {

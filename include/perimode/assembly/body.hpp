@@ -53,6 +53,11 @@ struct BodySize {
 };
 [[nodiscard]] BodySize estimate_size(const Model& model);
 
+/// Largest extent of a body between particle centres, in (largest) horizons; 0 without bonds. Cost O(bond
+/// ends) on a cloud, O(particles) on a grid.
+template <int Dim>
+[[nodiscard]] double horizons_long(const Body<Dim>& body);
+
 /// Bytes a body holds (a cloud: took while its neighbours were searched).
 template <int Dim>
 [[nodiscard]] double body_bytes(const Body<Dim>& body);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+
 #include "perimode/assembly/body.hpp"
 
 namespace perimode {
@@ -11,6 +13,23 @@ double bytes_of(const std::vector<T>& v) {
 }
 
 }  // namespace
+
+template <int Dim>
+double horizons_long(const Body<Dim>& body) {
+  Point<Dim> low = body.particles.position.front();
+  Point<Dim> high = low;
+  for (const auto& x : body.particles.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  double horizon = 0.0;
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
+    horizon = grid->family.horizon;
+  } else {
+    for (double h : std::get<CloudBonds<Dim>>(body.bonds).horizon) horizon = std::max(horizon, h);
+  }
+  return horizon > 0.0 ? (high - low).maxCoeff() / horizon : 0.0;
+}
 
 template <int Dim>
 double body_bytes(const Body<Dim>& body) {
@@ -37,7 +56,10 @@ double least_body_bytes(const Model& model) {
 }
 
 template double body_bytes<1>(const Body<1>&);
+template double horizons_long<1>(const Body<1>&);
 template double body_bytes<2>(const Body<2>&);
+template double horizons_long<2>(const Body<2>&);
 template double body_bytes<3>(const Body<3>&);
+template double horizons_long<3>(const Body<3>&);
 
 }  // namespace perimode
