@@ -111,12 +111,13 @@ class Iteration {
       rho = next;
       a_.apply(p_.data(), q_.data());
       const double curvature = dot(n_, p_.data(), q_.data());
-      if (!(curvature > 0.0))
-        return "the matrix is not positive definite, or singular and b outside its range";
+      result.singular = !(curvature > 0.0);
+      if (result.singular) return "the matrix is not positive definite, or singular and b outside its range";
       residual =
           std::sqrt(advance(n_, rho / curvature, p_.data(), q_.data(), x_.data(), r_.data())) / size_of_b_;
       ++result.iterations;
-      if (!std::isfinite(residual)) return "the residual is not finite";
+      result.singular = !std::isfinite(residual);
+      if (result.singular) return "the residual is not finite";
       sink_.report("conjugate gradients",
                    std::clamp(std::log(residual) / std::log(options_.tolerance), 0.0, 1.0));
     }

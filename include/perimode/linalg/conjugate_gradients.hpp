@@ -24,6 +24,8 @@ struct CgResult {
   double residual = 0.0;  ///< |b - A x| / |b|, computed from x at the end, not by the recurrence
   /// Why, where not converged: limit reached, A or M not positive definite, stagnation.
   std::string message;
+  /// A met a direction without stiffness that b pushes along: p^T A p <= 0, or x grew beyond all numbers.
+  bool singular = false;
   double seconds = 0.0;
 };
 

@@ -176,11 +176,9 @@ TEST(Static, MechanismsAreRefused) {
   m.boundary.push_back({Fix{{1}, Region{BoxRegion{{0.0, 0.0}, {0.3, 0.1}}, {}}}, {}});
   m.boundary.push_back({Fix{{1}, Region{BoxRegion{{0.4, 0.0}, {0.8, 0.1}}, {}}}, {}});
   const std::vector<Load> weight = {{BodyForce{{0.0, 1.0}}}};
-  for (StaticSolver solver : {StaticSolver::cholesky, StaticSolver::lu})
+  for (StaticSolver solver :
+       {StaticSolver::cholesky, StaticSolver::lu, StaticSolver::jacobi, StaticSolver::multigrid})
     expect_refusal<2>(m, loaded(weight, solver), {"stretches no bond", "longer horizon"});
-  const StaticResult r = solve_static(build_body<2>(m), m.boundary, loaded(weight, StaticSolver::jacobi));
-  EXPECT_EQ(r.status, StaticStatus::not_converged);
-  EXPECT_THAT(r.message, testing::HasSubstr("residual"));
 }
 
 TEST(Static, ASolverThatDoesNotFitTheBoundaryIsRefused) {
