@@ -152,6 +152,21 @@ Eigen::MatrixXd motions_of(const Body<Dim>& body, const Eigen::MatrixXd& modes) 
   return u;
 }
 
+/// Energies of motions (dofs x modes) if every particle moved among neighbours at rest: what the energy of a
+/// mechanism is round-off of, wherever it moves.
+template <int Dim>
+Eigen::VectorXd energy_apart(const Body<Dim>& body, const Eigen::MatrixXd& motion) {
+  const std::vector<double> blocks = diagonal_blocks(body);
+  Eigen::VectorXd energy = Eigen::VectorXd::Zero(motion.cols());
+  for (Index i = 0; i < body.count(); ++i) {
+    using Block = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
+    const Eigen::Map<const Block> block(blocks.data() + static_cast<std::size_t>(i) * Dim * Dim);
+    const auto u = motion.middleRows<Dim>(static_cast<Eigen::Index>(i) * Dim);
+    energy += 0.5 * u.cwiseProduct(block * u).colwise().sum().transpose();
+  }
+  return energy;
+}
+
 template <int Dim>
 void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, Pairs&& pairs) {
   const auto modes = static_cast<Eigen::Index>(pairs.value.size());
@@ -228,12 +243,14 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
     result.seconds_analyse = r.seconds_analyse;
     result.seconds_factor = r.seconds_factor;
     result.seconds_iterate = r.seconds_iterate;
-    const Eigen::VectorXd energy = bond_energy(body, motions_of(body, r.vector));
+    const Eigen::MatrixXd motion = motions_of(body, r.vector);
+    const Eigen::VectorXd energy = bond_energy(body, motion);
+    const Eigen::VectorXd apart = energy_apart(body, motion);
     for (Eigen::Index k = 0; k < r.value.size(); ++k) {
       const Eigen::VectorXd x = r.vector.col(k);
       const double norm2 = x.dot(problem.mass.cwiseProduct(x));
       const double value = 2.0 * energy[k] / norm2;
-      const bool zero = value <= 1e-14 * result.largest;
+      const bool zero = energy[k] <= 1e-14 * apart[k];
       if (zero) ++result.mechanisms;
       pairs.value.push_back(zero ? 0.0 : value);
       pairs.vector.emplace_back(x / std::sqrt(norm2));

@@ -2,11 +2,13 @@
 #include "perimode/assembly/operators.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <string>
 
 #include "operator_checks.hpp"
 #include "perimode/assembly/assemble.hpp"
@@ -181,7 +183,8 @@ TEST(Operators, EveryFormEqualsTheMatrixAfterBondsBreak) {
 
 /// A cloud file for the life of the test.
 struct CloudFile {
-  std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "operators_cloud.csv";
+  std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("operators_cloud_" + std::to_string(getpid()) + ".csv");
   explicit CloudFile(int dim) {
     std::ofstream out(path);
     out << (dim == 1 ? "x" : dim == 2 ? "x,y" : "x,y,z") << ",volume,block\n";
