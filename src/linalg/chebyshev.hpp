@@ -9,8 +9,8 @@
 
 namespace perimode {
 
-/// An upper bound of the eigenvalues of M^-1 K, K symmetric: the largest Ritz value of `steps` Lanczos steps plus
-/// the residual they leave, which holds for all but starting vectors of vanishing probability
+/// An upper bound of the eigenvalues of M^-1 K, K symmetric: the largest Ritz value of `steps` Lanczos steps
+/// plus the residual they leave, which holds for all but starting vectors of vanishing probability
 /// [zhou_li2011]. Cost: `steps` products.
 [[nodiscard]] double spectrum_top(const LinearOperator& stiffness, const Eigen::VectorXd& mass,
                                   std::uint64_t seed, int steps = 24);

@@ -19,7 +19,8 @@ struct SpectralTransform {
   bool positive = true;  ///< no theta is negative
   /// What a product adds to a residual at least, relative to the largest theta.
   double round_off = 5e-15;
-  /// No eigenvalue of A lies above; 0: Op damps what is rough, so that it cannot stand out in |K x - lambda M x|.
+  /// No eigenvalue of A lies above; 0: Op damps what is rough, so that it cannot stand out in |K x - lambda M
+  /// x|.
   double top = 0.0;
   std::function<Eigen::MatrixXd(const MatrixView&)> image;  ///< Op Y
   std::function<double(double theta)> to_eigenvalue;        ///< lambda

@@ -40,9 +40,9 @@ struct SolverChoice {
 };
 
 /// The solver of an analysis: what is asked for, or the cheapest by the cost model of
-/// docs/theory/10_factor_free_modes.md among those that can serve the request and stay within the memory limit.
-/// Counts operations, measures nothing: equal input makes equal choices. `largest` bounds the spectrum,
-/// (rad/s)^2. Throws invalid_input when a solver without a factor is asked for a range, a shift, a
+/// docs/theory/10_factor_free_modes.md among those that can serve the request and stay within the memory
+/// limit. Counts operations, measures nothing: equal input makes equal choices. `largest` bounds the
+/// spectrum, (rad/s)^2. Throws invalid_input when a solver without a factor is asked for a range, a shift, a
 /// certificate by inertia or an unsymmetric body.
 [[nodiscard]] SolverChoice choose_solver(const ModalSize& size, double largest, const ModalOptions& options);
 
