@@ -32,6 +32,12 @@ double seconds_since(Clock::time_point start) {
                  {}});
 }
 
+/// The residual that rounding of the displacements alone brings about.
+double rounding_residual(const StaticProblem& problem, const Eigen::VectorXd& u) {
+  return 8.0 * std::numeric_limits<double>::epsilon() * problem.bound * u.norm() /
+         std::max(problem.scale, 1e-300);
+}
+
 struct Solution {
   Eigen::VectorXd q;  ///< free dofs
   bool converged = true;
@@ -95,9 +101,12 @@ Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, 
   // Of the larger of the two parts of the right-hand side, as the residual is measured in the end.
   options.tolerance = std::min(0.5, 0.9 * tolerance * problem.scale / problem.rhs.norm());
   CgResult cg = conjugate_gradients(problem.stiffness, problem.rhs, preconditioner, options, nullptr, sink);
-  // A residual that is small all the same was held up by round-off alone.
-  constexpr double held_up = 1e-3;
-  if (cg.singular && !(cg.residual <= held_up)) mechanism();
+  // Along a motion without stiffness x grows until it ends in no number, in a product that is not positive,
+  // or in numbers whose rounding outweighs the loads. A residual that is small all the same was held up by
+  // round-off.
+  constexpr double useless = 1e-3;
+  const bool grown = !(rounding_residual(problem, cg.x) <= useless);
+  if (!cg.converged && (cg.singular || grown) && !(cg.residual <= useless)) mechanism();
   result.iterations = cg.iterations;
   result.seconds_solve = cg.seconds;
   return {std::move(cg.x), cg.converged, std::move(cg.message)};
@@ -105,8 +114,7 @@ Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, 
 
 /// Status from the residual: at the tolerance, or at what rounding of the displacements alone brings about.
 void judge(StaticResult& result, const StaticProblem& problem, const Solution& solution, double tolerance) {
-  const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * problem.bound *
-                          result.displacement.norm() / std::max(problem.scale, 1e-300);
+  const double rounding = rounding_residual(problem, result.displacement);
   constexpr double useless = 1e-3;  // no excuse: a singular K lets u grow without end
   if (result.residual <= std::max(tolerance, std::min(rounding, useless))) {
     result.status = StaticStatus::converged;
