@@ -6,39 +6,24 @@
 #include <utility>
 
 #include "block_krylov.hpp"
+#include "fused.hpp"
 #include "vector_kernels.hpp"
 
 namespace perimode {
 namespace {
 
-constexpr std::ptrdiff_t chunk = 4096;
-
-/// y = r x
-PERIMODE_EVERY_PROCESSOR
-void scale_rows(std::ptrdiff_t n, const double* __restrict r, const double* __restrict x,
-                double* __restrict y) {
-  for (std::ptrdiff_t i = 0; i < n; ++i) y[i] = r[i] * x[i];
-}
-
 /// next = a x - w kx - before, where `next` is `before`'s place.
 PERIMODE_EVERY_PROCESSOR
-void recurrence(std::ptrdiff_t n, double a, const double* __restrict w, const double* __restrict x,
+void recurrence(Index n, double a, const double* __restrict w, const double* __restrict x,
                 const double* __restrict kx, double* __restrict before) {
-  for (std::ptrdiff_t i = 0; i < n; ++i) before[i] = (a * x[i] - w[i] * kx[i]) - before[i];
+  for (Index i = 0; i < n; ++i) before[i] = (a * x[i] - w[i] * kx[i]) - before[i];
 }
 
 /// next = (a x - w kx) / 2
 PERIMODE_EVERY_PROCESSOR
-void first_step(std::ptrdiff_t n, double a, const double* __restrict w, const double* __restrict x,
+void first_step(Index n, double a, const double* __restrict w, const double* __restrict x,
                 const double* __restrict kx, double* __restrict next) {
-  for (std::ptrdiff_t i = 0; i < n; ++i) next[i] = 0.5 * (a * x[i] - w[i] * kx[i]);
-}
-
-/// Calls run(first, count) for parts of [0, n), in parallel.
-template <class Run>
-void in_parts(std::ptrdiff_t n, Run&& run) {
-#pragma omp parallel for schedule(static) if (n > 2 * chunk)
-  for (std::ptrdiff_t first = 0; first < n; first += chunk) run(first, std::min(chunk, n - first));
+  for (Index i = 0; i < n; ++i) next[i] = 0.5 * (a * x[i] - w[i] * kx[i]);
 }
 
 struct Filter {
@@ -51,28 +36,27 @@ struct Filter {
 
   /// One column: x = M^-1/2 y, then the recurrence t_{k+1} = 2 z(M^-1 K) t_k - t_{k-1}.
   void apply(const double* y, double* out, std::vector<Eigen::VectorXd>& work) const {
-    const std::ptrdiff_t n = root.size();
+    const auto n = static_cast<Index>(root.size());
     double* before = work[0].data();
     double* now = work[1].data();
     double* image = work[2].data();
     const double* w = twice.data();
-    in_parts(n, [&](std::ptrdiff_t i, std::ptrdiff_t count) {
-      for (std::ptrdiff_t k = i; k < i + count; ++k) before[k] = y[k] / root[k];
+    for_each_chunk(n, [&](Index i, Index count) {
+      for (Index k = i; k < i + count; ++k) before[k] = y[k] / root[k];
     });
     stiffness->apply(before, image);
-    in_parts(n, [&](std::ptrdiff_t i, std::ptrdiff_t count) {
+    for_each_chunk(n, [&](Index i, Index count) {
       first_step(count, 2.0 * alpha, w + i, before + i, image + i, now + i);
     });
     for (int k = 1; k < degree; ++k) {
       stiffness->apply(now, image);
-      in_parts(n, [&](std::ptrdiff_t i, std::ptrdiff_t count) {
+      for_each_chunk(n, [&](Index i, Index count) {
         recurrence(count, 2.0 * alpha, w + i, now + i, image + i, before + i);
       });
       std::swap(before, now);
     }
-    in_parts(n, [&](std::ptrdiff_t i, std::ptrdiff_t count) {
-      scale_rows(count, root.data() + i, now + i, out + i);
-      for (std::ptrdiff_t k = i; k < i + count; ++k) out[k] = scale * (out[k] + y[k]);
+    for_each_chunk(n, [&](Index i, Index count) {
+      for (Index k = i; k < i + count; ++k) out[k] = scale * (root[k] * now[k] + y[k]);
     });
   }
 };

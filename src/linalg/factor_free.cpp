@@ -122,7 +122,6 @@ SearchResult inverted(Search& search, EigenResult& out) {
   out.shift = sigma;
   const LinearOperator shifted{search.action.size, [&](const double* x, double* y) {
                                  search.action.apply(x, y);
-                                 if (sigma == 0.0) return;
                                  const Eigen::Map<const Eigen::VectorXd> from(x, mass.size());
                                  Eigen::Map<Eigen::VectorXd>(y, mass.size()) -=
                                      sigma * mass.cwiseProduct(from);

@@ -56,7 +56,7 @@ using Method = std::function<EigenPairs(SpectralTransform& op, const Eigen::Matr
 
 /// Is a Ritz pair good: |K x - lambda M x|_{M^-1} = |r| / slope (Op y = theta y + r, y purified; a shift and
 /// invert has the slope theta^2) at most tolerance * lambda, or as far down as round-off lets the iteration
-/// go?
+/// go? Where Op does not damp what is rough (op.top > 0), also |r| <= 10 tolerance lambda |theta| / top.
 [[nodiscard]] bool is_converged(const SpectralTransform& op, double theta, double residual, double largest,
                                 double tolerance);
 

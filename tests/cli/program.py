@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the perimode program in an empty folder of its own. Each script is called with the program's path."""
+import csv
 import os
 import pathlib
 import re
@@ -10,6 +11,7 @@ import unittest
 
 PROGRAM = os.path.abspath(sys.argv[1])
 
+FILES = ["modes.csv", "modes.exo", "summary.json"]
 STAGE = re.compile(r"^ *\d+\.\d s  ")
 
 PLATE = """\
@@ -82,6 +84,11 @@ def cloud_csv(nx=6, ny=4, spacing=0.1):
             block = "core" if i > 2 else ""
             lines.append(f"{(i + 0.5) * spacing!r},{(j + 0.5) * spacing!r},{spacing * spacing!r},{block}")
     return "\n".join(lines) + "\n"
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
 
 
 class ProgramTest(unittest.TestCase):

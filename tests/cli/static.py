@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """perimode static: files, numbers, and every kind of bad input."""
-import csv
 import json
 
-from program import ProgramTest, cloud_csv, main
+from program import ProgramTest, cloud_csv, main, rows
 
 PLATE = """\
 title: plate
@@ -55,11 +54,6 @@ output: { directory: out/cloud }
 """
 
 FILES = ["fields.exo", "reactions.csv", "summary.json"]
-
-
-def rows(path):
-    with open(path, newline="") as file:
-        return list(csv.DictReader(file))
 
 
 class Results(ProgramTest):

@@ -83,7 +83,7 @@ struct EigenResult {
   Eigen::VectorXd value;   ///< ascending
   Eigen::MatrixXd vector;  ///< columns, x^T M x = 1
   Certificate certificate;
-  std::string engine;   ///< "lanczos", "arpack", "dense", "slepc"
+  std::string engine;   ///< "lanczos", "arpack", "dense", "chebyshev", "inverse", "slepc"
   std::string message;  ///< why, when not converged or not certified
   double shift = 0.0;   ///< used
   int solves = 0;       ///< single right-hand sides
