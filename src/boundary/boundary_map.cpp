@@ -57,7 +57,7 @@ void extrapolate(BoundaryMap<1>& map, std::size_t g, const Ghost<1>& ghost, cons
   const double surface = wall.face.upper ? grid.upper()[0] : grid.lower[0];
   const Index p = wall.face.upper ? particles.count() - 1 : 0;
   const double ratio = std::abs(ghost.position[0] - surface) / std::abs(particles.position[p][0] - surface);
-  const double given = wall.displacement.empty() ? 0.0 : wall.displacement[0];
+  const double given = wall.displacement.empty() ? 0.0 : wall.displacement[0](surface);
   map.image[g] = p;
   map.coefficient[g] = -ratio;
   map.value[g] = (1.0 + ratio) * given;
@@ -72,6 +72,35 @@ std::vector<double> BoundaryMap<Dim>::expand(const double* q) const {
     if (free_number[d] >= 0) u[d] = q[free_number[d]];
   }
   return u;
+}
+
+namespace {
+
+/// Given values of particles and ghosts times factor[number of their time function].
+template <int Dim>
+BoundaryMap<Dim> scaled(BoundaryMap<Dim> map, const std::vector<double>& factor) {
+  for (std::size_t d = 0; d < map.given.size(); ++d)
+    map.given[d] *= factor[map.given_time.empty() ? 0 : static_cast<std::size_t>(map.given_time[d])];
+  for (std::size_t v = 0; v < map.value.size(); ++v)
+    map.value[v] *= factor[map.value_time.empty() ? 0 : static_cast<std::size_t>(map.value_time[v / Dim])];
+  return map;
+}
+
+}  // namespace
+
+template <int Dim>
+BoundaryMap<Dim> with_only(const BoundaryMap<Dim>& map, int number) {
+  std::vector<double> factor(map.time.size(), 0.0);
+  factor[static_cast<std::size_t>(number)] = 1.0;
+  return scaled(map, factor);
+}
+
+template <int Dim>
+BoundaryMap<Dim> at_time(const BoundaryMap<Dim>& map, double t) {
+  std::vector<double> factor;
+  factor.reserve(map.time.size());
+  for (const TimeFunction& h : map.time) factor.push_back(value_at(h, t));
+  return scaled(map, factor);
 }
 
 template <int Dim>
@@ -204,6 +233,8 @@ BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map) {
 
 #define PERIMODE_BOUNDARY(D)                                                                \
   template struct BoundaryMap<D>;                                                           \
+  template BoundaryMap<D> with_only<D>(const BoundaryMap<D>&, int);                         \
+  template BoundaryMap<D> at_time<D>(const BoundaryMap<D>&, double);                        \
   template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&, \
                                                      const std::array<bool, 3>&);           \
   template BoundaryMap<D> make_boundary_map<D>(const Particles<D>&, const Bonds<D>&,        \

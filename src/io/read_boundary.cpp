@@ -72,7 +72,10 @@ Wall read_wall(const Section& section, const Model& model, std::map<std::pair<in
   } else if (model.dimension != 1) {
     type.complain("odd, even, mirror, antimirror or zero_layer", "surface_nodes is available in 1D only");
   }
-  if (const auto u = section.find("displacement")) wall.displacement = u->point(model.dimension);
+  if (const auto u = section.find("displacement")) {
+    for (const double component : u->point(model.dimension))
+      wall.displacement.emplace_back(fmt::format("{:.17g}", component), u->where());
+  }
   return wall;
 }
 

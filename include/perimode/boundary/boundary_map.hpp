@@ -22,9 +22,24 @@ struct BoundaryMap {
   std::vector<double> value;        ///< Dim per ghost, m
   Index free = 0;                   ///< number of free dofs
 
-  /// Displacements of all particle dofs from the free ones. Cost O(dofs).
+  /// How given values and those of ghosts vary in time; the first one is constant. A static or modal analysis
+  /// takes all of them in full.
+  std::vector<TimeFunction> time = {TimeFunction{}};
+  std::vector<int> given_time = {};  ///< per dof of a particle: number in `time`; empty: all constant
+  std::vector<int> value_time = {};  ///< per ghost, likewise
+
+  /// Displacements of all particle dofs from the free ones, given values in full. Cost O(dofs).
   [[nodiscard]] std::vector<double> expand(const double* q) const;
 };
+
+/// The same map with the given values (of particles and ghosts) that vary as `time[number]` alone, the others
+/// zero: u_all = T q + sum_k h_k(t) g_k, and this is T and g_k.
+template <int Dim>
+[[nodiscard]] BoundaryMap<Dim> with_only(const BoundaryMap<Dim>& map, int number);
+
+/// The map at an instant: given values times their h_k(t).
+template <int Dim>
+[[nodiscard]] BoundaryMap<Dim> at_time(const BoundaryMap<Dim>& map, double t);
 
 /// Displacement of a bond partner, particle or ghost, for displacements `u` of all particle dofs; with
 /// `given` false, ghosts follow by the linear part of the map alone.

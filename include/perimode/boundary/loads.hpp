@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "perimode/boundary/time_function.hpp"
 #include "perimode/geometry/particles.hpp"
 
 namespace perimode {
@@ -27,6 +28,7 @@ struct TotalForce {
 struct Load {
   std::variant<Traction, BodyForce, TotalForce> what;
   std::optional<Region> at = {};  ///< empty: the whole body; a traction needs its face
+  TimeFunction time = {};         ///< a static analysis takes loads in full
   Where where = {};
 };
 

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "perimode/dynamics/motion.hpp"
+#include "perimode/linalg/factor.hpp"
+
+namespace perimode {
+
+/// Newmark's method and HHT-alpha (alpha = 0: Newmark):
+///   M a_{n+1} + (1 + alpha)(C v + K q)_{n+1} - alpha (C v + K q)_n = (1 + alpha) F_{n+1} - alpha F_n,
+///   q_{n+1} = q_n + dt v_n + dt^2 ((1/2 - beta) a_n + beta a_{n+1}),  v_{n+1} = v_n + dt ((1 - gamma) a_n +
+///   gamma a_{n+1}).
+/// [newmark1959], [hilber1977].
+struct NewmarkOptions {
+  double beta = 0.25;
+  double gamma = 0.5;
+  double alpha = 0.0;  ///< in [-1/3, 0]; not 0: beta = (1 - alpha)^2 / 4, gamma = 1/2 - alpha are set
+};
+
+/// Solves (K + diag(d)) x = b for the d that `make` was called with; `guess` is near x. Returns the number of
+/// iterations, 0 for a factor.
+using ShiftedSolve =
+    std::function<int(const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Eigen::VectorXd& x)>;
+/// How a Newmark step is solved, made once: by a factor of K + diag(d), or by conjugate gradients.
+using ShiftedSolver = std::function<ShiftedSolve(const Eigen::VectorXd& d)>;
+
+/// `motion` has to outlive the integrator. Throws invalid_input for parameters outside their range (beta <=
+/// 0, gamma < 1/2, alpha outside [-1/3, 0]).
+[[nodiscard]] std::unique_ptr<Integrator> newmark(const Motion& motion, double dt,
+                                                  const NewmarkOptions& options, const ShiftedSolver& solver);
+
+}  // namespace perimode

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "perimode/assembly/body.hpp"
+#include "perimode/linalg/operator.hpp"
+
+namespace perimode {
+
+/// The largest stable step of central differences, from the operator itself.
+struct StableStep {
+  double limit = 0.0;      ///< s: 2/omega_max; with stiffness damping b: sqrt(b^2 + 4/omega_max^2) - b
+  double omega_max = 0.0;  ///< rad/s, of K x = omega^2 M x, never below the true one (docs/theory/11)
+  double bound = 0.0;      ///< s: the sufficient step min_i sqrt(2 m_i / sum_b k_b) [silling2005]
+  bool symmetric = true;
+  int products = 0;  ///< with K
+};
+
+/// omega_max by Lanczos (symmetric) or Arnoldi on M^-1/2 K M^-1/2 to 1e-4, raised by its error bound.
+/// Throws invalid_input, a material instability, where an eigenvalue is below -1e-10 of the largest (on a
+/// grid with the wave vector of its motion, in units of pi/spacing), or complex beyond 1e-8 of it.
+template <int Dim>
+[[nodiscard]] StableStep stable_step(const Body<Dim>& body, const LinearOperator& stiffness,
+                                     const Eigen::VectorXd& mass, bool symmetric,
+                                     double stiffness_damping = 0.0);
+
+}  // namespace perimode

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+
+#include "perimode/linalg/operator.hpp"
+
+namespace perimode {
+
+/// Consecutive rows of a product y = A x, as they come out: rows first .. first + count - 1 in y[0 .. count).
+struct RowPiece {
+  Index piece = 0;  ///< number of the piece, for sums that do not depend on the number of threads
+  Index first = 0;
+  Index count = 0;
+  const double* y = nullptr;
+};
+
+/// y = A x handed out piece by piece, so that y need never be stored: a step of time takes each piece while
+/// it is in the first cache. Every row is handed out once; the pieces are the same for any number of threads,
+/// which take them in any order. x does not change until `apply` is back.
+struct RowProduct {
+  Index size = 0;
+  Index pieces = 0;  ///< numbers that RowPiece::piece takes
+  std::function<void(const double* x, const std::function<void(const RowPiece&)>& take)> apply;
+};
+
+/// Any operator as such, through a vector y of its own.
+[[nodiscard]] RowProduct in_rows(LinearOperator a);
+
+/// y = A x as a whole.
+[[nodiscard]] LinearOperator as_operator(RowProduct a);
+
+}  // namespace perimode
