@@ -27,7 +27,7 @@ enum class ImplicitSolver { automatic, factor, cg };
 /// One quantity followed through time. displacement, velocity: of the particle nearest to `at` (ties to the
 /// higher coordinate). strain: (u_b - u_a) . (x_b - x_a) / |x_b - x_a|^2 of the particles nearest to at and
 /// to.
-struct Probe {
+struct TransientProbe {
   enum class Kind { displacement, velocity, strain };
   std::string name;
   Kind kind = Kind::displacement;
@@ -69,7 +69,7 @@ struct TransientOptions {
   double rayleigh_stiffness = 0.0;  ///< beta, s
   std::vector<NodalDamping> damping = {};
   std::optional<Sponge> sponge = {};
-  std::vector<Probe> probes = {};
+  std::vector<TransientProbe> probes = {};
   int history_every = 1;                      ///< steps
   std::vector<double> fields_at = {};         ///< s; nearest steps
   int fields_every = 0;                       ///< steps; 0: none but fields_at
@@ -88,7 +88,8 @@ struct HistoryRow {
 };
 
 /// Names of the probes' columns: name_x, name_y, ... (strain: name).
-[[nodiscard]] std::vector<std::string> probe_columns(const std::vector<Probe>& probes, int dimension);
+[[nodiscard]] std::vector<std::string> probe_columns(const std::vector<TransientProbe>& probes,
+                                                     int dimension);
 
 /// Displacements and velocities of all particle dofs at a step, and the body with its bonds as they are.
 template <int Dim>
