@@ -127,6 +127,12 @@ double operator_bytes(const Body<Dim>& body, StiffnessForm form) {
 
 template <int Dim>
 Eigen::VectorXd internal_force(const Body<Dim>& body, const Eigen::VectorXd& displacement) {
+  return internal_force(body, body.boundary, displacement);
+}
+
+template <int Dim>
+Eigen::VectorXd internal_force(const Body<Dim>& body, const BoundaryMap<Dim>& boundary,
+                               const Eigen::VectorXd& displacement) {
   Eigen::VectorXd force(displacement.size());
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < body.count(); ++i) {
@@ -135,7 +141,7 @@ Eigen::VectorXd internal_force(const Body<Dim>& body, const Eigen::VectorXd& dis
     for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
       const Point<Dim> n = end.xi / end.length;
       const Point<Dim> relative =
-          here - partner_displacement(body.boundary, displacement.data(), end.neighbour, body.count());
+          here - partner_displacement(boundary, displacement.data(), end.neighbour, body.count());
       sum += bond_stiffness(body, i, end) * n.dot(relative) * n;
     });
     force.segment<Dim>(static_cast<Eigen::Index>(i) * Dim) = sum;
@@ -201,11 +207,12 @@ double stiffness_bound(const Body<Dim>& body) {
   return largest;
 }
 
-#define PERIMODE_OPERATORS(D)                                                         \
-  template LinearOperator stiffness_operator<D>(const Body<D>&, StiffnessForm);       \
-  template double operator_bytes<D>(const Body<D>&, StiffnessForm);                   \
-  template Eigen::VectorXd internal_force<D>(const Body<D>&, const Eigen::VectorXd&); \
-  template std::vector<double> diagonal_blocks<D>(const Body<D>&);                    \
+#define PERIMODE_OPERATORS(D)                                                                                \
+  template LinearOperator stiffness_operator<D>(const Body<D>&, StiffnessForm);                              \
+  template double operator_bytes<D>(const Body<D>&, StiffnessForm);                                          \
+  template Eigen::VectorXd internal_force<D>(const Body<D>&, const Eigen::VectorXd&);                        \
+  template Eigen::VectorXd internal_force<D>(const Body<D>&, const BoundaryMap<D>&, const Eigen::VectorXd&); \
+  template std::vector<double> diagonal_blocks<D>(const Body<D>&);                                           \
   template double stiffness_bound<D>(const Body<D>&)
 PERIMODE_OPERATORS(1);
 PERIMODE_OPERATORS(2);

@@ -35,6 +35,11 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd internal_force(const Body<Dim>& body, const Eigen::VectorXd& displacement);
 
+/// The same with another boundary map of the body in place of its own (with_only, at_time).
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd internal_force(const Body<Dim>& body, const BoundaryMap<Dim>& boundary,
+                                             const Eigen::VectorXd& displacement);
+
 /// Dim x Dim diagonal blocks (row-major) of R K T for every particle, ghosts that follow the particle itself
 /// included. Cost O(bond ends).
 template <int Dim>

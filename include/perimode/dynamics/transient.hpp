@@ -41,7 +41,9 @@ struct TransientProbe {
 struct Sponge {
   std::vector<Face> faces;
   double width = 0.0;  ///< m
-  double rate = 0.0;   ///< 1/s; 0: 3 (power + 1) c/(2 width) with c = sqrt(E/rho), reflection e^-3 on paper
+  /// 1/s; 0: (power + 1) ln(1000) c / width with c the speed of long waves along an axis: a wave that crosses
+  /// the layer and comes back keeps a thousandth.
+  double rate = 0.0;
   double power = 3.0;
   Where where = {};
 };
@@ -156,8 +158,8 @@ struct TransientResult {
 /// not fit (modal superposition of an unsymmetric body, large rotations with an implicit method), a material
 /// instability. A displacement that is no number ends the run as unstable.
 template <int Dim>
-[[nodiscard]] TransientResult run_transient(Body<Dim>& body, const std::vector<BoundaryCondition>& conditions,
-                                            const TransientOptions& options, const InitialState& initial,
+[[nodiscard]] TransientResult run_transient(Body<Dim>& body, const TransientOptions& options,
+                                            const InitialState& initial,
                                             const TransientObserver<Dim>& observer = {},
                                             const IntegratorState* resume = nullptr, const Sink& sink = {});
 

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/operators.hpp"
+#include "perimode/dynamics/transient.hpp"
+
+namespace perimode {
+
+namespace {
+
+/// Speed of long waves along the axes, m/s: the largest over axes and particles of sqrt(E_a/rho) with
+/// E_a = 1/(2 V) sum_b k_b xi_a^4/|xi|^2.
+template <int Dim>
+double long_wave_speed(const Body<Dim>& body) {
+  double square = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : square)
+  for (Index i = 0; i < body.count(); ++i) {
+    Point<Dim> modulus = Point<Dim>::Zero();
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const double k = bond_stiffness(body, i, end);
+      modulus += (k / (end.length * end.length) * end.xi.array().pow(4)).matrix();
+    });
+    const auto p = static_cast<std::size_t>(i);
+    const double density = body.density[static_cast<std::size_t>(body.particles.block[p])];
+    square = std::max(square, modulus.maxCoeff() / (2.0 * body.particles.volume[p] * density));
+  }
+  return std::sqrt(square);
+}
+
+/// Where a face lies: that of a grid's box, or the extreme particle of a cloud.
+template <int Dim>
+double plane_of(const Particles<Dim>& particles, const Face& face) {
+  if (particles.grid) return (face.upper ? particles.grid->upper() : particles.grid->lower)[face.axis];
+  double plane = particles.position.front()[face.axis];
+  for (const Point<Dim>& x : particles.position)
+    plane = face.upper ? std::max(plane, x[face.axis]) : std::min(plane, x[face.axis]);
+  return plane;
+}
+
+template <int Dim>
+void add_sponge(const Body<Dim>& body, const Sponge& sponge, std::vector<double>& rate) {
+  const double full = sponge.rate > 0.0
+                          ? sponge.rate
+                          : (sponge.power + 1.0) * std::log(1000.0) * long_wave_speed(body) / sponge.width;
+  std::vector<double> depth(rate.size(), 0.0);  // a corner counts once, as deep as it lies in any layer
+  bool met = false;
+  for (const Face& face : sponge.faces) {
+    if (face.axis < 0 || face.axis >= Dim) {
+      invalid_input({"faces of the body for the sponge", "an axis it does not have",
+                     "use the axes of the body", sponge.where});
+    }
+    const double plane = plane_of(body.particles, face);
+    for (std::size_t i = 0; i < rate.size(); ++i) {
+      const double inside = sponge.width - std::abs(body.particles.position[i][face.axis] - plane);
+      depth[i] = std::max(depth[i], inside / sponge.width);
+    }
+  }
+  for (std::size_t i = 0; i < rate.size(); ++i) {
+    if (depth[i] <= 0.0) continue;
+    met = true;
+    rate[i] += full * std::pow(depth[i], sponge.power);
+  }
+  if (!met) {
+    invalid_input({"a sponge that holds at least one particle", "none",
+                   "make its width larger than a spacing", sponge.where});
+  }
+}
+
+/// Rates of mass-proportional damping per particle, 1/s; empty: none.
+template <int Dim>
+std::vector<double> damping_rates(const Body<Dim>& body, const TransientOptions& options) {
+  if (options.rayleigh_mass == 0.0 && options.damping.empty() && !options.sponge) return {};
+  std::vector<double> rate(static_cast<std::size_t>(body.count()), options.rayleigh_mass);
+  for (const NodalDamping& damping : options.damping) {
+    const std::vector<Index> here = select(damping.at, body.particles);
+    if (here.empty()) {
+      invalid_input({"a region that holds at least one particle", "none", "move or enlarge the region",
+                     damping.at.where.line > 0 ? damping.at.where : damping.where});
+    }
+    for (const Index i : here) rate[static_cast<std::size_t>(i)] += damping.rate;
+  }
+  if (options.sponge) add_sponge(body, *options.sponge, rate);
+  return rate;
+}
+
+/// The free part of a force on all particle dofs, without its zeros.
+template <int Dim>
+ForceTerm free_term(const BoundaryMap<Dim>& boundary, const Eigen::VectorXd& all, double sign) {
+  ForceTerm term;
+  for (Eigen::Index d = 0; d < all.size(); ++d) {
+    const Index number = boundary.free_number[static_cast<std::size_t>(d)];
+    if (number < 0 || all[d] == 0.0) continue;
+    term.dof.push_back(number);
+    term.value.push_back(sign * all[d]);
+  }
+  return term;
+}
+
+/// Loads that vary alike make one term.
+template <int Dim>
+void add_loads(const Body<Dim>& body, const std::vector<Load>& loads, Motion& motion) {
+  std::vector<bool> taken(loads.size(), false);
+  for (std::size_t first = 0; first < loads.size(); ++first) {
+    if (taken[first]) continue;
+    std::vector<Load> alike;
+    for (std::size_t k = first; k < loads.size(); ++k) {
+      if (!taken[k] && same(loads[k].time, loads[first].time)) {
+        alike.push_back(loads[k]);
+        taken[k] = true;
+      }
+    }
+    ForceTerm term = free_term(body.boundary, load_vector(body.particles, alike), 1.0);
+    term.time = loads[first].time;
+    if (!term.dof.empty()) motion.force.push_back(std::move(term));
+  }
+}
+
+/// p_k = -R K g_k of the given displacements of every function of time, and their own stiffness.
+template <int Dim>
+void add_given_motion(const Body<Dim>& body, Motion& motion) {
+  std::vector<Eigen::VectorXd> given;
+  std::vector<Eigen::VectorXd> force;  // K g_k on all particle dofs
+  for (std::size_t k = 0; k < body.boundary.time.size(); ++k) {
+    const BoundaryMap<Dim> map = with_only(body.boundary, static_cast<int>(k));
+    const auto zero = [](double v) { return v == 0.0; };
+    if (std::all_of(map.given.begin(), map.given.end(), zero) &&
+        std::all_of(map.value.begin(), map.value.end(), zero)) {
+      continue;
+    }
+    given.emplace_back(
+        Eigen::Map<const Eigen::VectorXd>(map.given.data(), static_cast<Eigen::Index>(map.given.size())));
+    force.push_back(internal_force(body, map, given.back()));
+    ForceTerm term = free_term(body.boundary, force.back(), -1.0);
+    term.time = body.boundary.time[k];
+    term.motion = true;
+    motion.force.push_back(std::move(term));
+  }
+  const auto n = static_cast<Eigen::Index>(given.size());
+  motion.motion_stiffness.resize(n, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index l = 0; l < n; ++l) {
+      const auto a = static_cast<std::size_t>(k);
+      const auto b = static_cast<std::size_t>(l);
+      motion.motion_stiffness(k, l) = 0.5 * (given[a].dot(force[b]) + given[b].dot(force[a]));
+    }
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
+  Motion motion;
+  motion.mass = lumped_mass(body);
+  motion.stiffness = stiffness_rows(body, options.form);
+  constexpr double round_off = 1e-12;
+  motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= round_off;
+  const std::vector<double> rate = damping_rates(body, options);
+  if (!rate.empty()) {
+    motion.damping_rate.resize(body.boundary.free);
+    for (std::size_t d = 0; d < body.boundary.free_number.size(); ++d) {
+      const Index number = body.boundary.free_number[d];
+      if (number >= 0) motion.damping_rate[number] = rate[d / Dim];
+    }
+  }
+  motion.stiffness_damping = options.rayleigh_stiffness;
+  add_loads(body, options.loads, motion);
+  add_given_motion(body, motion);
+  return motion;
+}
+
+template Motion make_motion<1>(const Body<1>&, const TransientOptions&);
+template Motion make_motion<2>(const Body<2>&, const TransientOptions&);
+template Motion make_motion<3>(const Body<3>&, const TransientOptions&);
+
+}  // namespace perimode

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "dynamics/transient_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/probes.hpp"
+#include "perimode/assembly/operators.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr double share_of_limit = 0.9;  ///< of the stable step that an automatic one takes
+
+const char* method_name(TimeMethod method) {
+  switch (method) {
+    case TimeMethod::central_difference:
+      return "central_difference";
+    case TimeMethod::newmark:
+      return "newmark";
+    case TimeMethod::hht:
+      return "hht";
+    case TimeMethod::modal:
+      break;
+  }
+  return "modal";
+}
+
+template <int Dim>
+const char* form_name(const Body<Dim>& body, const TransientOptions& options) {
+  if (needs_bond_forces(options)) return "bond forces";
+  switch (options.form) {
+    case StiffnessForm::stencil:
+      return "stencil";
+    case StiffnessForm::bonds:
+      return "bonds";
+    case StiffnessForm::blocks:
+      return "assembled";
+    case StiffnessForm::automatic:
+      break;
+  }
+  return std::holds_alternative<GridBonds<Dim>>(body.bonds) ? "stencil" : "bonds";
+}
+
+void refuse_step(const TransientOptions& options, const TransientPlan& plan) {
+  invalid_input({fmt::format("a step dt <= {:.6g} s, the stable step of this body (omega_max = {:.6g} rad/s; "
+                             "sufficient: {:.6g} s)",
+                             plan.stable.limit, plan.stable.omega_max, plan.stable.bound),
+                 fmt::format("{:.6g} s", options.dt), "use a smaller dt, dt: auto, or method: newmark",
+                 options.where});
+}
+
+}  // namespace
+
+bool needs_bond_forces(const TransientOptions& options) {
+  return options.kinematics == Kinematics::large_rotation ||
+         std::any_of(options.critical_stretch.begin(), options.critical_stretch.end(),
+                     [](double s) { return std::isfinite(s); });
+}
+
+template <int Dim>
+void check_options(const Body<Dim>& body, const TransientOptions& options) {
+  if (!(options.end > 0.0) || !std::isfinite(options.end)) {
+    invalid_input({"an end of the run after its start at t = 0", fmt::format("end = {} s", options.end),
+                   "give it in s, for example end: 1.0e-3", options.where});
+  }
+  if (options.dt < 0.0 || !std::isfinite(options.dt)) {
+    invalid_input({"a step dt > 0 s", fmt::format("{}", options.dt), "or write dt: auto", options.where});
+  }
+  if (options.dt > options.end * (1.0 + 1e-9)) {
+    invalid_input({fmt::format("a step dt <= end = {} s", options.end), fmt::format("{} s", options.dt),
+                   "make dt smaller or end larger", options.where});
+  }
+  if (body.boundary.free == 0) {
+    invalid_input({"a body that can move", "every component fixed or prescribed",
+                   "free some particles in `boundary`", options.where});
+  }
+  const bool explicit_method = options.method == TimeMethod::central_difference;
+  if (options.kinematics == Kinematics::large_rotation && !explicit_method) {
+    invalid_input({"method: central_difference with kinematics: large_rotation", method_name(options.method),
+                   "use central_difference, or kinematics: linear", options.where});
+  }
+  if (needs_bond_forces(options) && !explicit_method) {
+    invalid_input({"method: central_difference for a material that breaks", method_name(options.method),
+                   "use central_difference, or leave out fracture_energy and critical_stretch",
+                   options.where});
+  }
+  for (const double t : options.fields_at) {
+    if (t < 0.0 || t > options.end * (1.0 + 1e-9)) {
+      invalid_input({fmt::format("times of fields_at from 0 to end = {} s", options.end),
+                     fmt::format("{} s", t), "remove it or make end larger", options.where});
+    }
+  }
+}
+
+template <int Dim>
+TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options, const Motion& motion) {
+  TransientPlan plan;
+  plan.method = method_name(options.method);
+  plan.form = form_name(body, options);
+  const bool explicit_method = options.method == TimeMethod::central_difference;
+  const bool implicit_method = options.method == TimeMethod::newmark || options.method == TimeMethod::hht;
+  if (explicit_method || implicit_method || options.dt == 0.0) {
+    plan.stable = stable_step(body, as_operator(motion.stiffness), motion.mass, motion.symmetric,
+                              explicit_method ? options.rayleigh_stiffness : 0.0);
+  }
+  if (options.dt == 0.0) {
+    plan.steps = static_cast<std::int64_t>(
+        std::ceil(options.end / (share_of_limit * plan.stable.limit) * (1.0 - 1e-12)));
+    plan.steps = std::max<std::int64_t>(plan.steps, 1);
+    plan.dt = options.end / static_cast<double>(plan.steps);
+  } else {
+    plan.dt = options.dt;
+    plan.steps = std::max<std::int64_t>(std::llround(options.end / options.dt), 1);
+    if (explicit_method && options.dt > plan.stable.limit * (1.0 + 1e-12)) refuse_step(options, plan);
+  }
+  const double dofs = body.boundary.free;
+  const double all_dofs = static_cast<double>(body.count()) * Dim;
+  // State, forces and the work of the integrator; the frames and fields that are written.
+  const double vectors = explicit_method ? 5.0 : implicit_method ? 14.0 : 4.0 + options.modes;
+  plan.memory_bytes = body_bytes(body) + operator_bytes(body, options.form) +
+                      sizeof(double) * (vectors * dofs + 6.0 * all_dofs);
+  return plan;
+}
+
+std::vector<std::int64_t> field_steps(const TransientOptions& options, const TransientPlan& plan) {
+  std::vector<std::int64_t> steps;
+  for (const double t : options.fields_at)
+    steps.push_back(std::clamp<std::int64_t>(std::llround(t / plan.dt), 0, plan.steps));
+  if (options.fields_every > 0) {
+    for (std::int64_t n = 0; n <= plan.steps; n += options.fields_every) steps.push_back(n);
+  }
+  if (steps.empty()) steps.push_back(plan.steps);
+  std::sort(steps.begin(), steps.end());
+  steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+  return steps;
+}
+
+template <int Dim>
+TransientPlan plan_transient(const Body<Dim>& body, const TransientOptions& options) {
+  check_options(body, options);
+  (void)place_probes(body, options.probes);
+  const Motion motion = make_motion(body, options);
+  TransientPlan plan = plan_steps(body, options, motion);
+  if (options.method == TimeMethod::newmark || options.method == TimeMethod::hht) {
+    plan.solver =
+        describe_shifted_solver(body, motion.symmetric, options.solver, plan.dt / plan.stable.limit);
+  }
+  return plan;
+}
+
+#define PERIMODE_PLAN(D)                                                                        \
+  template void check_options<D>(const Body<D>&, const TransientOptions&);                      \
+  template TransientPlan plan_steps<D>(const Body<D>&, const TransientOptions&, const Motion&); \
+  template TransientPlan plan_transient<D>(const Body<D>&, const TransientOptions&)
+PERIMODE_PLAN(1);
+PERIMODE_PLAN(2);
+PERIMODE_PLAN(3);
+#undef PERIMODE_PLAN
+
+}  // namespace perimode
