@@ -5,38 +5,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <compare>
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <sstream>
 #include <string_view>
+
+#include "core/csv.hpp"
 
 namespace perimode {
 
 namespace {
-
-struct Field {
-  std::string_view text;  ///< without blanks around it
-  int column;             ///< from 1
-};
-
-std::vector<Field> split(std::string_view line) {
-  std::vector<Field> fields;
-  for (std::size_t start = 0;;) {
-    const std::size_t comma = std::min(line.find(',', start), line.size());
-    std::size_t first = start;
-    std::size_t last = comma;
-    const auto blank = [&](std::size_t i) { return line[i] == ' ' || line[i] == '\t'; };
-    while (first < last && blank(first)) ++first;
-    while (last > first && blank(last - 1)) --last;
-    fields.push_back({line.substr(first, last - first), static_cast<int>(first) + 1});
-    if (comma == line.size()) return fields;
-    start = comma + 1;
-  }
-}
 
 class CloudReader {
  public:
@@ -48,10 +29,7 @@ class CloudReader {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     while (!text.empty()) {
       ++line_;
-      const std::size_t end = std::min(text.find('\n'), text.size());
-      std::string_view line = text.substr(0, end);
-      text.remove_prefix(std::min(end + 1, text.size()));
-      if (line.ends_with('\r')) line.remove_suffix(1);
+      const std::string_view line = next_csv_line(text);
       if (line_ == 1) {
         read_header(line);
       } else if (line.find_first_not_of(" \t") != std::string_view::npos) {
@@ -83,7 +61,7 @@ class CloudReader {
 
   void read_header(std::string_view line) {
     std::vector<std::string_view> names;
-    for (const Field& field : split(line)) names.push_back(field.text);
+    for (const CsvField& field : csv_fields(line)) names.push_back(field.text);
     const std::string given = fmt::format("{}", fmt::join(names, ","));
     with_block_ = given == header(true);
     if (!with_block_ && given != header(false)) {
@@ -93,20 +71,17 @@ class CloudReader {
     }
   }
 
-  [[nodiscard]] double number(const Field& field, std::string_view name) const {
-    std::string_view text = field.text;
-    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
-    double value = 0.0;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (code != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+  [[nodiscard]] double number(const CsvField& field, std::string_view name) const {
+    const std::optional<double> value = csv_number(field.text);
+    if (!value) {
       complain(fmt::format("a finite number for {}", name), fmt::format("'{}'", field.text.substr(0, 60)),
                "write a plain SI number with a decimal point", {line_, field.column});
     }
-    return value;
+    return *value;
   }
 
   void read_particle(std::string_view line) {
-    const std::vector<Field> fields = split(line);
+    const std::vector<CsvField> fields = csv_fields(line);
     const auto dimension = static_cast<std::size_t>(data_.dimension);
     const std::size_t wanted = dimension + 1 + (with_block_ ? 1 : 0);
     if (fields.size() != wanted) {

@@ -38,6 +38,9 @@ struct CaseNode {
 /// Sets the value at a dotted path from "key=value", creating what is missing on the way.
 void apply_override(CaseNode& root, const std::string& key_value);
 
+/// The value as JSON in one line: scalars as text, maps in file order.
+[[nodiscard]] std::string json_text(const CaseNode& node);
+
 /// "'210 GPa'", "a list of 2", "a map", "nothing".
 [[nodiscard]] std::string describe(const CaseNode& node);
 

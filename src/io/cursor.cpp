@@ -93,6 +93,12 @@ void Cursor::not_one_of(const std::vector<std::string_view>& words) const {
   complain(fmt::format("one of {}", fmt::join(words, ", ")), remedy);
 }
 
+bool Cursor::is_number() const {
+  bool out_of_range = false;
+  return node_->kind == CaseNode::Kind::scalar &&
+         (parse_number(node_->text, out_of_range).has_value() || out_of_range);
+}
+
 double Cursor::number(const Quantity& quantity) const {
   const std::string show = fmt::format("for example {}", quantity.example);
   if (node_->kind != CaseNode::Kind::scalar) complain(wanted(quantity), show);

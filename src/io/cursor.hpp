@@ -33,6 +33,8 @@ class Cursor {
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] const Where& where() const { return node_->where; }
 
+  /// Whether the value is written as a number, whatever its size.
+  [[nodiscard]] bool is_number() const;
   [[nodiscard]] double number(const Quantity& quantity) const;
   [[nodiscard]] int integer(int lowest, const char* example) const;
   [[nodiscard]] bool boolean() const;

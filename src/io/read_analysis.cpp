@@ -58,17 +58,18 @@ ModalOptions read_modal(const Cursor& cursor) {
 
 }  // namespace
 
-void read_analysis(const Cursor& cursor, Case& result) {
+void read_analysis(const Cursor& cursor, InputFiles& files, Case& result) {
   const Section analysis(cursor, {"modal", "static", "transient", "quasistatic", "dispersion"});
   if (const auto modal = analysis.find("modal")) {
     result.modal = read_modal(*modal);
     result.modal_where = modal->where();
   }
   if (const auto statics = analysis.find("static")) {
-    result.statics = read_static(*statics, facts_of(result.model));
+    result.statics = read_static(*statics, facts_of(result.model), files);
     result.static_where = statics->where();
   }
-  for (const char* name : {"transient", "quasistatic", "dispersion"}) {
+  if (const auto transient = analysis.find("transient")) read_transient(*transient, files, result);
+  for (const char* name : {"quasistatic", "dispersion"}) {
     const auto other = analysis.find(name);
     if (other && other->node().kind != CaseNode::Kind::map && other->node().kind != CaseNode::Kind::null) {
       other->complain("a map", "each analysis has its own keys");

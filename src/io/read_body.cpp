@@ -47,18 +47,13 @@ GridSpec read_grid(const Cursor& cursor, int dimension) {
   return grid;
 }
 
-CloudSpec read_cloud_file(const Cursor& cursor, const std::filesystem::path& directory) {
-  const std::filesystem::path name = cursor.text("cloud.csv");
-  CloudSpec cloud{directory / name, cursor.where()};
-  if (name.extension() != ".csv") {
-    cursor.complain("a .csv file", "this version reads .csv only: columns x[,y[,z]],volume[,block]");
+CloudSpec read_cloud_file(const Cursor& cursor, InputFiles& files) {
+  const std::string extension = std::filesystem::path(cursor.text("cloud.csv")).extension();
+  if (extension != ".csv" && extension != ".msh" && extension != ".exo") {
+    cursor.complain("a .csv, .msh or .exo file",
+                    "give a table x[,y[,z]],volume[,block], a Gmsh mesh or an Exodus mesh");
   }
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(cloud.file, code)) {
-    cursor.complain("an existing file",
-                    fmt::format("looked for {}; paths are relative to the case file", cloud.file.string()));
-  }
-  return cloud;
+  return {files.add(cursor, "cloud.csv"), cursor.where()};
 }
 
 HorizonSpec read_horizon(const Cursor& cursor, bool grid) {
@@ -162,7 +157,7 @@ void read_section_size(const Section& body, Model& model) {
 
 }  // namespace
 
-void read_body(const Cursor& cursor, const std::filesystem::path& directory, Model& model) {
+void read_body(const Cursor& cursor, InputFiles& files, Model& model) {
   const Section body(cursor, {"dimension", "plane", "thickness", "area", "particles", "horizon", "periodic",
                               "precracks", "blocks"});
   model.where = cursor.where();
@@ -174,7 +169,7 @@ void read_body(const Cursor& cursor, const std::filesystem::path& directory, Mod
   if (particles.exactly_one({"grid", "file"}) == "grid") {
     model.particles = read_grid(*particles.find("grid"), model.dimension);
   } else {
-    model.particles = read_cloud_file(*particles.find("file"), directory);
+    model.particles = read_cloud_file(*particles.find("file"), files);
   }
   const BodyFacts facts = facts_of(model);
   model.horizon = read_horizon(body.need("horizon", "{ ratio: 3 }"), facts.grid);

@@ -25,7 +25,7 @@ Fix read_fix(const Section& section, const BodyFacts& facts) {
   return fix;
 }
 
-Prescribe read_prescribe(const Section& section, const BodyFacts& facts) {
+Prescribe read_prescribe(const Section& section, const BodyFacts& facts, InputFiles& files) {
   const Cursor map = *section.find("prescribe");
   const Section components = facts.dimension == 1   ? Section(map, {"x"})
                              : facts.dimension == 2 ? Section(map, {"x", "y"})
@@ -37,14 +37,30 @@ Prescribe read_prescribe(const Section& section, const BodyFacts& facts) {
   }
   if (prescribe.components.empty()) map.complain("at least one component", "for example { y: 1.0e-4 }");
   prescribe.at = read_region(section.need("at", "{ face: y+, layers: 3 }"), facts);
-  if (const auto time = section.find("time")) check_time(*time);
+  if (const auto time = section.find("time")) prescribe.time = read_time(*time, files);
   return prescribe;
 }
 
-Wall read_wall(const Section& section, const Model& model, std::map<std::pair<int, bool>, Where>& walls) {
+/// What surface nodes do: u_s(x, y, z), or in 1D the force through the surface.
+void read_surface(const Section& section, int dimension, InputFiles& files, Wall& wall) {
+  const std::string_view given = section.at_most_one({"displacement", "traction"});
+  if (dimension != 1) {
+    section.refuse("traction", fmt::format("no `traction` of a wall in {}D", dimension),
+                   "give the load as a traction on the particles at the face, in the analysis' loads");
+  }
+  if (given.empty()) section.refuse("time", "no time function with a surface at rest", "remove it");
+  if (given == "displacement") {
+    wall.displacement = read_formulas(*section.find("displacement"), dimension);
+  } else if (given == "traction") {
+    wall.traction = section.find("traction")->number({"Pa", "1.0e+6", Sign::any});
+  }
+  if (const auto time = section.find("time")) wall.time = read_time(*time, files);
+}
+
+Wall read_wall(const Section& section, const Model& model, InputFiles& files,
+               std::map<std::pair<int, bool>, Where>& walls) {
   const Cursor face = *section.find("wall");
   section.refuse("at", "no `at` with a wall", "a wall lies on its face");
-  section.refuse("time", "no time function with a wall", "a wall does not move");
   if (!std::holds_alternative<GridSpec>(model.particles)) {
     face.complain("no wall on a cloud", "walls need a grid; fix the outermost particles instead");
   }
@@ -67,44 +83,35 @@ Wall read_wall(const Section& section, const Model& model, std::map<std::pair<in
                                      {"antimirror", WallType::antimirror},
                                      {"zero_layer", WallType::zero_layer},
                                      {"surface_nodes", WallType::surface_nodes}});
-  if (wall.type != WallType::surface_nodes) {
-    section.refuse("displacement", "`displacement` with the type surface_nodes only", "remove it");
-  } else if (model.dimension != 1) {
-    type.complain("odd, even, mirror, antimirror or zero_layer", "surface_nodes is available in 1D only");
-  }
-  if (const auto u = section.find("displacement")) {
-    for (const double component : u->point(model.dimension))
-      wall.displacement.emplace_back(fmt::format("{:.17g}", component), u->where());
+  if (wall.type == WallType::surface_nodes) {
+    read_surface(section, model.dimension, files, wall);
+  } else {
+    for (const char* key : {"displacement", "traction", "time"})
+      section.refuse(key, fmt::format("`{}` with the type surface_nodes only", key), "remove it");
   }
   return wall;
 }
 
 }  // namespace
 
-void check_time(const Cursor& cursor) {
-  if (cursor.node().kind == CaseNode::Kind::scalar && cursor.node().text == "constant") return;
-  const Section time(cursor,
-                     {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
-  (void)time.exactly_one(
-      {"constant", "ramp", "step", "half_sine", "ricker", "gaussian", "table", "expression"});
-}
-
-void read_boundary(const Cursor& cursor, Model& model) {
+void read_boundary(const Cursor& cursor, InputFiles& files, Model& model) {
   const BodyFacts facts = facts_of(model);
   std::map<std::pair<int, bool>, Where> walls;
   for (const Cursor& item : cursor.items("[ { fix: [x], at: { face: x-, layers: 3 } } ]")) {
-    const Section section(item, {"fix", "prescribe", "wall", "at", "type", "displacement", "time"});
+    const Section section(item,
+                          {"fix", "prescribe", "wall", "at", "type", "displacement", "traction", "time"});
     BoundaryCondition condition;
     condition.where = item.where();
     const std::string_view kind = section.exactly_one({"fix", "prescribe", "wall"});
     if (kind != "wall") {
       section.refuse("type", fmt::format("no `type` with {}", kind), "it belongs to a wall");
-      section.refuse("displacement", fmt::format("no `displacement` with {}", kind),
-                     "it belongs to a wall of type surface_nodes");
+      for (const char* key : {"displacement", "traction"})
+        section.refuse(key, fmt::format("no `{}` with {}", key, kind),
+                       "it belongs to a wall of type surface_nodes");
     }
     if (kind == "fix") condition.what = read_fix(section, facts);
-    if (kind == "prescribe") condition.what = read_prescribe(section, facts);
-    if (kind == "wall") condition.what = read_wall(section, model, walls);
+    if (kind == "prescribe") condition.what = read_prescribe(section, facts, files);
+    if (kind == "wall") condition.what = read_wall(section, model, files, walls);
     model.boundary.push_back(std::move(condition));
   }
 }

@@ -18,7 +18,7 @@ Region read_traction_face(const Section& section, const BodyFacts& facts) {
 
 }  // namespace
 
-std::vector<Load> read_loads(const Cursor& cursor, const BodyFacts& facts) {
+std::vector<Load> read_loads(const Cursor& cursor, const BodyFacts& facts, InputFiles& files) {
   std::vector<Load> loads;
   for (const Cursor& item : cursor.items("[ { traction: [0, 1.0e+6], at: { face: y+, layers: 1 } } ]")) {
     const Section section(item, {"traction", "body_force", "force", "at", "time"});
@@ -34,7 +34,7 @@ std::vector<Load> read_loads(const Cursor& cursor, const BodyFacts& facts) {
       if (kind == "force") load.what = TotalForce{value.point(facts.dimension, "N")};
       if (const auto at = section.find("at")) load.at = read_region(*at, facts);
     }
-    if (const auto time = section.find("time")) check_time(*time);
+    if (const auto time = section.find("time")) load.time = read_time(*time, files);
     loads.push_back(std::move(load));
   }
   return loads;

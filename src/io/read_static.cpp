@@ -3,11 +3,11 @@
 
 namespace perimode::case_file {
 
-StaticOptions read_static(const Cursor& cursor, const BodyFacts& facts) {
+StaticOptions read_static(const Cursor& cursor, const BodyFacts& facts, InputFiles& files) {
   StaticOptions options;
   if (cursor.node().kind == CaseNode::Kind::null) return options;  // `static:` with nothing: all defaults
   const Section section(cursor, {"loads", "solver", "tolerance"});
-  if (const auto loads = section.find("loads")) options.loads = read_loads(*loads, facts);
+  if (const auto loads = section.find("loads")) options.loads = read_loads(*loads, facts, files);
   if (const auto solver = section.find("solver")) {
     options.solver = solver->choice<StaticSolver>({{"auto", StaticSolver::automatic},
                                                    {"cholesky", StaticSolver::cholesky},

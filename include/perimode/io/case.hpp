@@ -7,7 +7,10 @@
 #include <string_view>
 #include <vector>
 
+#include "perimode/assembly/bond_forces.hpp"
 #include "perimode/assembly/model.hpp"
+#include "perimode/dynamics/transient.hpp"
+#include "perimode/io/initial_state.hpp"
 #include "perimode/modal/options.hpp"
 #include "perimode/statics/static.hpp"
 
@@ -27,8 +30,18 @@ struct Case {
   Where modal_where = {};
   std::optional<StaticOptions> statics;
   Where static_where = {};
+  std::optional<TransientOptions> transient;  ///< with the case's kinematics
+  InitialSpec initial;                        ///< of the transient analysis
+  Where transient_where = {};
+  Kinematics kinematics = Kinematics::linear;
   OutputSpec output;
   std::filesystem::path file;
+
+  /// Every file the case names, in its order: particles, tables of time functions, initial fields.
+  std::vector<std::filesystem::path> files;
+  /// The case after overrides as JSON in one line, values as they are written: the same for two cases that
+  /// differ in comments, layout or output.directory alone.
+  std::string canonical;
 };
 
 /// Reads a YAML or JSON case (docs/case_reference.md). `overrides` are `key=value` texts, the key a
