@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+
+#include "boundary/ghost_rule.hpp"
 
 namespace perimode {
 
@@ -11,24 +13,6 @@ namespace {
 
 std::string face_name(const Face& face) {
   return fmt::format("{}{}", "xyz"[face.axis], face.upper ? '+' : '-');
-}
-
-/// Sign of component `component` after one reflection at a wall normal to `axis`; 0 for a zero layer.
-double reflection(WallType type, int axis, int component) {
-  switch (type) {
-    case WallType::odd:
-      return -1.0;
-    case WallType::even:
-      return 1.0;
-    case WallType::mirror:
-      return axis == component ? -1.0 : 1.0;
-    case WallType::antimirror:
-      return axis == component ? 1.0 : -1.0;
-    case WallType::zero_layer:
-    case WallType::surface_nodes:  // set apart: no reflection of the image
-      break;
-  }
-  return 0.0;
 }
 
 template <int Dim>
@@ -50,17 +34,54 @@ void check_component(int component, const Where& where) {
   }
 }
 
-/// Surface node at the face: u_ghost = u_s + ratio (u_s - u_p), p the nearest particle [scabbia2023].
-void extrapolate(BoundaryMap<1>& map, std::size_t g, const Ghost<1>& ghost, const Wall& wall,
-                 const Particles<1>& particles) {
-  const Grid<1>& grid = *particles.grid;
-  const double surface = wall.face.upper ? grid.upper()[0] : grid.lower[0];
-  const Index p = wall.face.upper ? particles.count() - 1 : 0;
-  const double ratio = std::abs(ghost.position[0] - surface) / std::abs(particles.position[p][0] - surface);
-  const double given = wall.displacement.empty() ? 0.0 : wall.displacement[0](surface);
-  map.image[g] = p;
-  map.coefficient[g] = -ratio;
-  map.value[g] = (1.0 + ratio) * given;
+/// Number of a time function among those of the map; a new one is added.
+template <int Dim>
+int time_number(BoundaryMap<Dim>& map, const TimeFunction& function) {
+  const auto known =
+      std::find_if(map.time.begin(), map.time.end(), [&](const auto& f) { return same(f, function); });
+  const auto number = static_cast<int>(known - map.time.begin());
+  if (known == map.time.end()) map.time.push_back(function);
+  return number;
+}
+
+/// Sets entry k of a list of time numbers; the list stays empty while all are constant.
+void set_time(std::vector<int>& list, std::size_t size, std::size_t k, int number) {
+  if (list.empty() && number != 0) list.assign(size, 0);
+  if (!list.empty()) list[k] = number;
+}
+
+template <int Dim>
+void check_surface(const Wall& wall, const Where& where) {
+  if (!wall.displacement.empty() && wall.displacement.size() != static_cast<std::size_t>(Dim)) {
+    invalid_input({fmt::format("{} component{} of the surface's displacement", Dim, Dim == 1 ? "" : "s"),
+                   fmt::format("{}", wall.displacement.size()), fmt::format("the body has dimension {}", Dim),
+                   where});
+  }
+}
+
+/// What the ghosts do.
+template <int Dim>
+void add_ghosts(BoundaryMap<Dim>& map, const Grid<Dim>& grid, const GridBonds<Dim>& bonds,
+                const std::vector<BoundaryCondition>& conditions) {
+  const std::size_t n = bonds.ghosts.size();
+  map.image.resize(n);
+  map.coefficient.resize(n * Dim);
+  map.value.assign(n * Dim, 0.0);
+  const auto walls = wall_numbers<Dim>(conditions);
+  for (std::size_t g = 0; g < n; ++g) {
+    const GhostRule<Dim> rule = ghost_rule(bonds.ghosts[g], grid, bonds, conditions, walls);
+    map.image[g] = rule.particle;
+    const bool surface = rule.wall != GhostRule<Dim>::none;
+    for (int a = 0; a < Dim; ++a) map.coefficient[g * Dim + a] = rule.sign[a] * (surface ? -rule.ratio : 1.0);
+    if (!surface) continue;
+    const auto& wall = std::get<Wall>(conditions[rule.wall].what);
+    if (wall.displacement.empty()) continue;
+    std::array<double, 3> x = {};
+    std::copy_n(rule.surface.data(), Dim, x.data());
+    for (int a = 0; a < Dim; ++a)
+      map.value[g * Dim + a] = rule.sign[a] * (1.0 + rule.ratio) * wall.displacement[a](x[0], x[1], x[2]);
+    set_time(map.value_time, n, g, time_number(map, wall.time));
+  }
 }
 
 }  // namespace
@@ -139,7 +160,6 @@ BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<
   const auto dofs = static_cast<std::size_t>(particles.count()) * Dim;
   map.given.assign(dofs, 0.0);
   std::vector<char> state(dofs, 0);  // 0 free, 1 prescribed, 2 fixed
-  std::array<const Wall*, 2 * Dim> walls = {};
   for (const auto& condition : conditions) {
     if (const auto* fix = std::get_if<Fix>(&condition.what)) {
       for (Index i : chosen(fix->at, condition.where, particles)) {
@@ -147,9 +167,11 @@ BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<
           check_component<Dim>(c, condition.where);
           state[static_cast<std::size_t>(i) * Dim + c] = 2;
           map.given[static_cast<std::size_t>(i) * Dim + c] = 0.0;
+          set_time(map.given_time, dofs, static_cast<std::size_t>(i) * Dim + c, 0);
         }
       }
     } else if (const auto* prescribe = std::get_if<Prescribe>(&condition.what)) {
+      const int number = time_number(map, prescribe->time);
       for (Index i : chosen(prescribe->at, condition.where, particles)) {
         for (const auto& [c, value] : prescribe->components) {
           check_component<Dim>(c, condition.where);
@@ -157,15 +179,11 @@ BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<
           if (state[dof] == 2) continue;
           state[dof] = 1;
           map.given[dof] = value;
+          set_time(map.given_time, dofs, dof, number);
         }
       }
     } else {
-      const auto& wall = std::get<Wall>(condition.what);
-      if (wall.type == WallType::surface_nodes && Dim != 1) {
-        invalid_input({"surface_nodes in one dimension", fmt::format("dimension {}", Dim),
-                       "use odd, even, mirror, antimirror or zero_layer", condition.where});
-      }
-      walls[2 * wall.face.axis + (wall.face.upper ? 1 : 0)] = &wall;
+      check_surface<Dim>(std::get<Wall>(condition.what), condition.where);
     }
   }
   map.free_number.assign(dofs, -1);
@@ -173,28 +191,8 @@ BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<
     if (state[d] == 0) map.free_number[d] = map.free++;
   }
 
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&bonds)) {
-    const std::size_t n = grid->ghosts.size();
-    map.image.resize(n);
-    map.coefficient.assign(n * Dim, 1.0);
-    map.value.assign(n * Dim, 0.0);
-    for (std::size_t g = 0; g < n; ++g) {
-      const Ghost<Dim>& ghost = grid->ghosts[g];
-      map.image[g] = ghost.image;
-      for (int side = 0; side < 2 * Dim; ++side) {
-        if (ghost.crossings[side] == 0) continue;
-        const Wall& wall = *walls[side];
-        for (int c = 0; c < Dim; ++c) {
-          map.coefficient[g * Dim + c] *= std::pow(reflection(wall.type, side / 2, c), ghost.crossings[side]);
-        }
-      }
-      if constexpr (Dim == 1) {
-        const bool upper = ghost.position[0] > particles.grid->upper()[0];
-        const Wall& nearest = *walls[upper ? 1 : 0];
-        if (nearest.type == WallType::surface_nodes) extrapolate(map, g, ghost, nearest, particles);
-      }
-    }
-  }
+  if (const auto* grid = std::get_if<GridBonds<Dim>>(&bonds))
+    add_ghosts(map, *particles.grid, *grid, conditions);
   return map;
 }
 

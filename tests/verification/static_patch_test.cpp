@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/assembly/fields.hpp"
+#include "perimode/assembly/operators.hpp"
 #include "verification/held_body.hpp"
 
 namespace perimode {
@@ -66,6 +67,89 @@ TEST(Patch, UnevenFactorsBesideTheFaceDisturbIt) {
   EXPECT_LT(error, 1e-2);
 }
 
+/// Surface nodes on every face not named otherwise, with u_s = h x: extrapolation is exact, so every family
+/// is whole and its neighbours move as h x. Statically and as no acceleration.
+template <int Dim>
+void expect_surface_patch(const Model& model, const Eigen::Matrix<double, Dim, Dim>& h) {
+  const auto body = build_body<Dim>(model);
+  Eigen::VectorXd exact(body.count() * Dim);
+  for (Index i = 0; i < body.count(); ++i) exact.segment<Dim>(i * Dim) = h * body.particles.position[i];
+  const double size = exact.cwiseAbs().maxCoeff();
+  // Rows of the largest absolute sum; extrapolated displacements are at most three times the largest one.
+  const double force = stiffness_bound(body) * size;
+  EXPECT_LE(internal_force(body, exact).cwiseAbs().maxCoeff(), 1e-13 * force);
+  StaticOptions options;
+  options.tolerance = 1e-12;
+  const StaticResult r = solve_static(body, model.boundary, options);
+  ASSERT_EQ(r.status, StaticStatus::converged) << r.message;
+  EXPECT_LE((r.displacement - exact).cwiseAbs().maxCoeff(), 1e-12 * size);
+}
+
+template <int Dim>
+Eigen::Matrix<double, Dim, Dim> patch_gradient() {
+  Eigen::Matrix<double, Dim, Dim> h;
+  for (int a = 0; a < Dim; ++a) {
+    for (int b = 0; b < Dim; ++b) h(a, b) = 1e-3 * (2.0 - a + 3.0 * b * a - 1.5 * b);
+  }
+  return h;
+}
+
+template <int Dim>
+void expect_surface_patches(const std::vector<int>& cells, int ratio) {
+  const auto h = patch_gradient<Dim>();
+  for (Kernel kernel : kernels) {
+    for (VolumeCorrection correction : {VolumeCorrection::none, VolumeCorrection::linear}) {
+      Model m = box_model(cells, 0.1, ratio);
+      m.material.micromodulus.kernel = kernel;
+      m.volume_correction = correction;
+      for (int a = 0; a < Dim; ++a) {
+        for (bool upper : {false, true}) test::add_surface_nodes(m, a, upper, test::linear_field<Dim>(h));
+      }
+      expect_surface_patch<Dim>(m, h);
+      m.calibration = Calibration::discrete;  // ghosts count, so that all factors are alike
+      expect_surface_patch<Dim>(m, h);
+    }
+  }
+}
+
+TEST(SurfaceNodes, AUniformStrainIsReproducedToTheCorners) {
+  for (int ratio : {2, 3, 4}) {
+    expect_surface_patches<1>({12}, ratio);
+    expect_surface_patches<2>({11, 7}, ratio);
+  }
+  expect_surface_patches<3>({5, 6, 4}, 2);
+  expect_surface_patches<3>({4, 6, 5}, 3);
+}
+
+TEST(SurfaceNodes, AUniformStrainIsReproducedAtTheLongestHorizon) {
+  const auto h = patch_gradient<3>();
+  Model m = box_model({5, 6, 7}, 0.1, 4.0);
+  m.volume_correction = VolumeCorrection::linear;
+  for (int a = 0; a < 3; ++a) {
+    for (bool upper : {false, true}) test::add_surface_nodes(m, a, upper, test::linear_field<3>(h));
+  }
+  expect_surface_patch<3>(m, h);
+}
+
+TEST(SurfaceNodes, AUniformStrainIsReproducedBesideMirrorsAndPeriodicAxes) {
+  for (int ratio : {2, 3}) {
+    Eigen::Matrix2d stretched = Eigen::Vector2d(2e-3, -1e-3).asDiagonal();
+    Model plate = box_model({9, 6}, 0.1, ratio);
+    test::add_surface_nodes(plate, 1, true, test::linear_field<2>(stretched));
+    test::add_surface_nodes(plate, 0, true, test::linear_field<2>(stretched));
+    add_wall(plate, 0, false, WallType::mirror);
+    add_wall(plate, 1, false, WallType::mirror);
+    expect_surface_patch<2>(plate, stretched);
+
+    Eigen::Matrix3d along = Eigen::Matrix3d::Zero();
+    along.col(0) << 2e-3, 1e-3, -3e-3;
+    Model block = box_model({5, 4, 3}, 0.1, ratio);
+    block.periodic = {false, true, true};
+    for (bool upper : {false, true}) test::add_surface_nodes(block, 0, upper, test::linear_field<3>(along));
+    expect_surface_patch<3>(block, along);
+  }
+}
+
 /// A bar between an odd wall and surface nodes that move by U: both let a linear field through, so the bar is
 /// linear to the last particle and its force that of the lattice, (E' / E) E A U / L.
 TEST(Bar, IsLinearAndAsStiffAsItsLattice) {
@@ -77,7 +161,7 @@ TEST(Bar, IsLinearAndAsStiffAsItsLattice) {
       model.volume_correction = correction;
       const double end = 1e-3;
       add_wall(model, 0, false, WallType::odd);
-      model.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {end}}, {}});
+      test::add_surface_nodes(model, 0, true, {std::to_string(end)});
       StaticOptions options;
       options.tolerance = 1e-12;
       const StaticResult r = solve_static(build_body<1>(model), model.boundary, options);

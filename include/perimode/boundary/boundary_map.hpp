@@ -12,6 +12,7 @@ namespace perimode {
 /// The affine map u_all = T q + g from the free degrees of freedom to those of all particles, ghosts
 /// included, in its compact form: a dof of a particle is free or has a given value; a dof of a ghost is
 ///   u_ghost[a] = coefficient[a] u_image[a] + value[a].
+/// Beyond surface nodes the image is the particle that u is extrapolated from.
 /// dof = Dim * particle + component. Sources: docs/theory/03_boundaries.md.
 template <int Dim>
 struct BoundaryMap {
@@ -73,8 +74,9 @@ template <int Dim>
                                                        const std::array<bool, 3>& periodic);
 
 /// Numbers the free dofs and says what ghosts do. A fixed dof stays fixed whatever comes later; among
-/// prescribed values the last one holds. Throws invalid_input: a region that holds no particle, a component
-/// the body does not have, surface_nodes outside 1D. Cost O(particles + ghosts).
+/// prescribed values the last one holds, and so does the last wall where faces of surface nodes meet.
+/// Throws invalid_input: a region that holds no particle, a component the body does not have, no particle
+/// behind an edge of surface nodes. Cost O(particles + ghosts).
 template <int Dim>
 [[nodiscard]] BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<Dim>& bonds,
                                                  const std::vector<BoundaryCondition>& conditions);

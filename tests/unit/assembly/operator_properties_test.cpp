@@ -75,8 +75,8 @@ TEST(Operators, InternalForceIsTheOperatorOnFreeBodies) {
 
 TEST(Operators, InternalForceTakesGivenValuesOfGhosts) {
   Model bar = box_model({20}, 1.0, 3.0);
-  bar.boundary.push_back({Wall{{0, false}, WallType::surface_nodes, {0.0}}, {}});
-  bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {2.0}}, {}});
+  test::add_surface_nodes(bar, 0, false, {"0.0"});
+  test::add_surface_nodes(bar, 0, true, {"2.0"});
   const auto body = build_body<1>(bar);
   Eigen::VectorXd stretched(20);
   for (int i = 0; i < 20; ++i) stretched[i] = 0.1 * (i + 0.5);
@@ -121,6 +121,7 @@ TEST(Operators, DiagonalBlocksAndTheBoundAreThoseOfTheMatrix) {
     expect_blocks_and_bound<3>(block);
     add_wall(bar, 0, true, WallType::surface_nodes);
     add_wall(plate, 1, false, WallType::antimirror);
+    add_walls(plate, 0, WallType::surface_nodes);
     add_walls(block, 2, WallType::odd);
     expect_blocks_and_bound<1>(bar);
     expect_blocks_and_bound<2>(plate);

@@ -110,11 +110,21 @@ TEST(Operators, EveryFormEqualsTheMatrixAtSurfaceNodes) {
     for (auto type : {WallType::odd, WallType::surface_nodes}) {
       Model bar = box_model({cells}, 0.5, 3.0);
       add_wall(bar, 0, false, type);
-      bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {0.25}}, {}});
+      test::add_surface_nodes(bar, 0, true, {"0.25"});
       expect_any(bar);
       bar.calibration = Calibration::discrete;
       expect_any(bar);
     }
+  }
+  for (const auto& cells : {std::vector{23, 9}, std::vector{6, 9, 7}}) {
+    Model m = box_model(cells, 0.5, cells.size() == 3 ? 2.0 : 3.0);
+    add_walls(m, 0, WallType::surface_nodes);
+    add_wall(m, 1, false, WallType::mirror);
+    add_wall(m, 1, true, WallType::surface_nodes);
+    expect_any(m);
+    m.calibration = Calibration::discrete;
+    m.periodic[2] = true;
+    expect_any(m);
   }
 }
 

@@ -88,7 +88,7 @@ TEST(Stiffness, EqualsTheSumOfRankOneMatricesForEveryWall) {
     expect_equals_bonds<2>(m);
     Model bar = box_model({12}, 0.5, 3.0);
     add_wall(bar, 0, false, type);
-    bar.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {}}, {}});
+    test::add_surface_nodes(bar, 0, true);
     expect_equals_bonds<1>(bar);
   }
 }

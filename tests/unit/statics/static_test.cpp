@@ -131,8 +131,8 @@ TEST(Static, UnsymmetricWallsAreSolvedByLu) {
   const std::vector<Load> load = {{BodyForce{{1e-3, 2e-3}}}};
   EXPECT_EQ(solved<2>(m, loaded(load)).solver, "lu");
   Model nodes = box_model({20}, 0.05, 3.0);
-  nodes.boundary.push_back({Wall{{0, false}, WallType::surface_nodes, {0.0}}, {}});
-  nodes.boundary.push_back({Wall{{0, true}, WallType::surface_nodes, {0.01}}, {}});
+  test::add_surface_nodes(nodes, 0, false, {"0.0"});
+  test::add_surface_nodes(nodes, 0, true, {"0.01"});
   const StaticResult bar = solved<1>(nodes, loaded({}));
   EXPECT_EQ(bar.solver, "lu");
   // Linear extrapolation lets a linear field through exactly: u = 0.01 x.
