@@ -6,9 +6,26 @@
 
 #include <array>
 #include <cmath>
+#include <string_view>
 #include <utility>
 
 namespace perimode {
+
+namespace {
+
+/// muParser would store into x what stands behind "x =".
+bool assigns(const std::string& text) {
+  for (std::size_t k = text.find('='); k != std::string::npos; k = text.find('=', k + 1)) {
+    if (k + 1 < text.size() && text[k + 1] == '=') {
+      ++k;
+    } else if (k == 0 || std::string_view("<>!").find(text[k - 1]) == std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 struct Expression::Parsed {
   std::string text;
@@ -27,9 +44,15 @@ struct Expression::Parsed {
     } catch (const mu::Parser::exception_type& error) {
       std::string what = error.GetMsg();
       while (!what.empty() && (what.back() == '.' || what.back() == '\n')) what.pop_back();
-      invalid_input({"a formula of x, y, z and t", fmt::format("'{}': {}", text, what),
-                     "write for example 0.02*exp(-100*(x-0.5)^2)", where});
+      refuse(what);
     }
+    if (assigns(text)) refuse("it sets a variable");
+    if (parser.GetNumResults() != 1) refuse("it has more than one value");
+  }
+
+  [[noreturn]] void refuse(const std::string& reason) const {
+    invalid_input({"a formula of x, y, z and t", fmt::format("'{}': {}", text, reason),
+                   "write for example 0.02*exp(-100*(x-0.5)^2)", where});
   }
 };
 

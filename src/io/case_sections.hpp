@@ -54,7 +54,7 @@ void read_analysis(const Cursor& cursor, InputFiles& files, Case& result);
 [[nodiscard]] OutputSpec read_output(const Cursor& cursor);
 
 /// Block names in use (regions, materials) against those the body has.
-void check_block_names(const Model& model);
+void check_block_names(const Case& result);
 /// The family of a grid: neither empty nor absurdly large.
 void check_horizon(const Model& model);
 

@@ -65,7 +65,8 @@ void require_region(BlockNames& names, const Region& region) {
 
 }  // namespace
 
-void check_block_names(const Model& model) {
+void check_block_names(const Case& result) {
+  const Model& model = result.model;
   BlockNames names(model);
   for (const auto& [name, material] : model.block_materials) names.require(name, material.where);
   if (const auto* grid = std::get_if<GridSpec>(&model.particles)) {
@@ -75,6 +76,15 @@ void check_block_names(const Model& model) {
     if (const auto* fix = std::get_if<Fix>(&condition.what)) require_region(names, fix->at);
     if (const auto* prescribe = std::get_if<Prescribe>(&condition.what)) require_region(names, prescribe->at);
   }
+  const auto require_loads = [&](const std::vector<Load>& loads) {
+    for (const Load& load : loads) {
+      if (load.at) require_region(names, *load.at);
+    }
+  };
+  if (result.statics) require_loads(result.statics->loads);
+  if (!result.transient) return;
+  require_loads(result.transient->loads);
+  for (const NodalDamping& damping : result.transient->damping) require_region(names, damping.at);
 }
 
 void check_horizon(const Model& model) {

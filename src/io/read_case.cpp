@@ -41,12 +41,12 @@ Case read_case_text(std::string_view text, const std::filesystem::path& file,
                  result.model);
   check_horizon(result.model);
   if (const auto boundary = root.find("boundary")) read_boundary(*boundary, files, result.model);
-  check_block_names(result.model);
   if (const auto kinematics = root.find("kinematics")) {
     result.kinematics = kinematics->choice<Kinematics>(
         {{"linear", Kinematics::linear}, {"large_rotation", Kinematics::large_rotation}});
   }
   if (const auto analysis = root.find("analysis")) read_analysis(*analysis, files, result);
+  check_block_names(result);
   if (const auto output = root.find("output")) result.output = read_output(*output);
   result.files = std::move(files.found);
   result.canonical = canonical(std::move(tree));

@@ -86,9 +86,6 @@ void read_times(const Section& section, TransientOptions& options) {
   const Cursor end = section.need("end", "1.0e-3");
   options.end = end.number({"s", "1.0e-3"});
   if (const auto dt = section.find("dt"); dt && dt->node().text != "auto") {
-    if (!dt->is_number() && dt->node().kind == CaseNode::Kind::scalar && dt->node().text.empty()) {
-      dt->complain("auto or a number > 0 in s", "for example auto");
-    }
     options.dt = dt->number({"s (or auto)", "1.0e-7"});
     if (options.dt > options.end) {
       dt->complain(fmt::format("a step of at most {} s, the end", options.end),
