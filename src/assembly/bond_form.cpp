@@ -70,9 +70,10 @@ template <>
   }
 }
 
+/// K u of particles [begin, end) by free dof, to y[0 ..) from row `first` on.
 template <int Dim>
 [[gnu::always_inline]] inline void sum_particles(const BondForm<Dim>& form, const double* u, Index begin,
-                                                 Index end, double* y) {
+                                                 Index end, Index first, double* y) {
   const Index* number = form.u.empty() ? nullptr : form.body->boundary.free_number.data();
   for (Index i = begin; i < end; ++i) {
     const std::size_t dof = static_cast<std::size_t>(i) * Dim;
@@ -81,24 +82,24 @@ template <int Dim>
                   form.start[i + 1] - form.start[i], u, u + dof, sum);
     for (int a = 0; a < Dim; ++a) {
       if (number == nullptr)
-        y[dof + a] = sum[a];
+        y[dof + a - first] = sum[a];
       else if (number[dof + a] >= 0)
-        y[number[dof + a]] = sum[a];
+        y[number[dof + a] - first] = sum[a];
     }
   }
 }
 
 PERIMODE_EVERY_PROCESSOR void sum_1(const BondForm<1>& form, const double* u, Index begin, Index end,
-                                    double* y) {
-  sum_particles<1>(form, u, begin, end, y);
+                                    Index first, double* y) {
+  sum_particles<1>(form, u, begin, end, first, y);
 }
 PERIMODE_EVERY_PROCESSOR void sum_2(const BondForm<2>& form, const double* u, Index begin, Index end,
-                                    double* y) {
-  sum_particles<2>(form, u, begin, end, y);
+                                    Index first, double* y) {
+  sum_particles<2>(form, u, begin, end, first, y);
 }
 PERIMODE_EVERY_PROCESSOR void sum_3(const BondForm<3>& form, const double* u, Index begin, Index end,
-                                    double* y) {
-  sum_particles<3>(form, u, begin, end, y);
+                                    Index first, double* y) {
+  sum_particles<3>(form, u, begin, end, first, y);
 }
 
 /// All dofs free and no ghosts: the product reads x itself.
@@ -120,21 +121,56 @@ void expand(const BoundaryMap<Dim>& boundary, const double* x, std::vector<doubl
   }
 }
 
+template <int Dim>
+void sum_slice(const BondForm<Dim>& form, const double* u, Index begin, Index end, Index first, double* y) {
+  if constexpr (Dim == 1) sum_1(form, u, begin, end, first, y);
+  if constexpr (Dim == 2) sum_2(form, u, begin, end, first, y);
+  if constexpr (Dim == 3) sum_3(form, u, begin, end, first, y);
+}
+
+/// Displacements the bonds read: those of all particles and ghosts.
+template <int Dim>
+const double* all_displacements(BondForm<Dim>& form, const double* x) {
+  if (form.u.empty()) return x;
+  expand(form.body->boundary, x, form.u);
+  return form.u.data();
+}
+
+constexpr Index slice = 256;  ///< particles
+
 }  // namespace
 
 template <int Dim>
 void BondForm<Dim>::apply(const double* x, double* y) {
-  if (!u.empty()) expand(body->boundary, x, u);
-  const double* all = u.empty() ? x : u.data();
+  const double* all = all_displacements(*this, x);
   const Index n = body->count();
-  constexpr Index slice = 256;
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
+  for (Index begin = 0; begin < n; begin += slice)
+    sum_slice(*this, all, begin, std::min(n, begin + slice), 0, y);
+}
+
+template <int Dim>
+void BondForm<Dim>::apply(const double* x, const std::function<void(const RowPiece&)>& take) {
+  const double* all = all_displacements(*this, x);
+  const Index n = body->count();
+  const Index* number = body->boundary.free_number.data();
 #pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index begin = 0; begin < n; begin += slice) {
     const Index end = std::min(n, begin + slice);
-    if constexpr (Dim == 1) sum_1(*this, all, begin, end, y);
-    if constexpr (Dim == 2) sum_2(*this, all, begin, end, y);
-    if constexpr (Dim == 3) sum_3(*this, all, begin, end, y);
+    const Index* first = number + static_cast<std::ptrdiff_t>(begin) * Dim;
+    const Index* last = number + static_cast<std::ptrdiff_t>(end) * Dim;
+    const auto free = [](Index d) { return d >= 0; };
+    const Index* row = std::find_if(first, last, free);
+    if (row == last) continue;
+    double y[slice * Dim];
+    sum_slice(*this, all, begin, end, *row, y);
+    take({begin / slice, *row, static_cast<Index>(std::count_if(row, last, free)), y});
   }
+}
+
+template <int Dim>
+Index BondForm<Dim>::pieces() const {
+  return (body->count() + slice - 1) / slice;
 }
 
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "perimode/assembly/body.hpp"
+#include "perimode/linalg/row_product.hpp"
 
 namespace perimode {
 
@@ -18,6 +19,9 @@ struct BondForm {
 
   /// y = K x over the free dofs: (K u)_i = sum_b b (b . (u_i - u_j)).
   void apply(const double* x, double* y);
+  /// The same piece by piece. Displacements that are taken into `u` first leave x to `take`.
+  void apply(const double* x, const std::function<void(const RowPiece&)>& take);
+  [[nodiscard]] Index pieces() const;
 };
 
 /// Cost O(bond ends). `body` has to outlive it.

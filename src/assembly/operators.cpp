@@ -98,6 +98,14 @@ LinearOperator shared_operator(Index size, Form form) {
   return {size, [held](const double* x, double* y) { held->apply(x, y); }};
 }
 
+template <class Form>
+RowProduct shared_rows(Index size, Index pieces, bool in_place, Form form) {
+  const auto held = std::make_shared<Form>(std::move(form));
+  return {size, pieces, in_place, [held](const double* x, const std::function<void(const RowPiece&)>& take) {
+            held->apply(x, take);
+          }};
+}
+
 }  // namespace
 
 template <int Dim>
@@ -110,6 +118,26 @@ LinearOperator stiffness_operator(const Body<Dim>& body, StiffnessForm form) {
       return shared_operator(size, make_bond_form(body));
     default:
       return shared_operator(size, make_stencil(body));
+  }
+}
+
+template <int Dim>
+RowProduct stiffness_rows(const Body<Dim>& body, StiffnessForm form) {
+  const Index size = body.boundary.free;
+  switch (chosen_form(body, form)) {
+    case StiffnessForm::blocks:
+      return in_rows(stiffness_operator(body, StiffnessForm::blocks));
+    case StiffnessForm::bonds: {
+      auto bonds = make_bond_form(body);
+      const Index pieces = bonds.pieces();
+      const bool taken_in = !bonds.u.empty();
+      return shared_rows(size, pieces, taken_in, std::move(bonds));
+    }
+    default: {
+      auto stencil = make_stencil(body);
+      const Index pieces = stencil.pieces;
+      return shared_rows(size, pieces, true, std::move(stencil));
+    }
   }
 }
 
@@ -209,6 +237,7 @@ double stiffness_bound(const Body<Dim>& body) {
 
 #define PERIMODE_OPERATORS(D)                                                                                \
   template LinearOperator stiffness_operator<D>(const Body<D>&, StiffnessForm);                              \
+  template RowProduct stiffness_rows<D>(const Body<D>&, StiffnessForm);                                      \
   template double operator_bytes<D>(const Body<D>&, StiffnessForm);                                          \
   template Eigen::VectorXd internal_force<D>(const Body<D>&, const Eigen::VectorXd&);                        \
   template Eigen::VectorXd internal_force<D>(const Body<D>&, const BoundaryMap<D>&, const Eigen::VectorXd&); \

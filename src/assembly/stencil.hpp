@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "perimode/assembly/body.hpp"
+#include "perimode/linalg/row_product.hpp"
 
 namespace perimode {
 
@@ -13,13 +14,17 @@ namespace perimode {
 /// several materials.
 enum class Families : std::uint8_t { whole, partial, mixed };
 
+/// Particles of a run whose products are summed at a time: they stay in the first cache.
+constexpr Index stencil_piece = 256;
+
 /// Consecutive particles of one row of cells, their bonds summed alike.
 struct ParticleRun {
   Index cell = 0;      ///< of the first one within its layer of the padded grid
   Index particle = 0;  ///< first
   Index count = 0;
-  Index dof = -1;  ///< number of the first free dof where all are free; -1: by particle
-  Index set = 0;   ///< vectors b of the family
+  Index dof = -1;   ///< number of the first free dof where all are free; -1: by particle
+  Index set = 0;    ///< vectors b of the family
+  Index piece = 0;  ///< number of its first piece
   Families families = Families::whole;
 };
 
@@ -50,14 +55,17 @@ struct Stencil {
   std::vector<Index> layer_run;  ///< first run of each layer
   std::vector<FillRun> fill;
   std::vector<Index> layer_fill;  ///< first filling of each padded layer
+  Index pieces = 0;
 
   /// Memory of one thread.
   struct Work {
     std::vector<double> window;        ///< displacements of 2 reach + 1 layers
+    std::vector<double> beyond;        ///< and of the `reach` layers above those of this thread
     std::vector<const double*> layer;  ///< the layers in reach, the lowest first
     std::vector<const double*> at;     ///< per family member
     std::vector<std::uint64_t> lanes;  ///< alive bits
     std::vector<double> out;           ///< K u of a piece of a run
+    std::vector<double> rows;          ///< the same by free dof
   };
   std::vector<Work> work;
 
@@ -66,6 +74,8 @@ struct Stencil {
   void prepare(Index chunks);
   /// y = K x over the free dofs.
   void apply(const double* x, double* y);
+  /// The same piece by piece; x may be changed by `take` (RowProduct::in_place): the window has taken it in.
+  void apply(const double* x, const std::function<void(const RowPiece&)>& take);
   /// Bytes held besides the body, with work for the present number of threads.
   [[nodiscard]] double bytes() const;
 };

@@ -147,9 +147,10 @@ void add_particle_runs(Stencil<Dim>& s) {
     if (dofs == Dofs::none) continue;
     round_to_groups(families.begin() + first, families.begin() + last);
     for (Index i = first; i < last;) {
-      ParticleRun run{home[i] % s.layer_cells, i, 1, -1, set_of(i), families[i]};
+      ParticleRun run{home[i] % s.layer_cells, i, 1, -1, set_of(i), s.pieces, families[i]};
       if (dofs == Dofs::all) run.dof = body.boundary.free_number[static_cast<std::size_t>(i) * Dim];
       for (++i; i < last && families[i] == run.families && set_of(i) == run.set; ++i) ++run.count;
+      s.pieces += (run.count + stencil_piece - 1) / stencil_piece;
       s.run.push_back(run);
       ++s.layer_run[home[first] / s.layer_cells - s.reach + 1];
     }

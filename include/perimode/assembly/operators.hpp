@@ -7,6 +7,7 @@
 
 #include "perimode/assembly/body.hpp"
 #include "perimode/linalg/operator.hpp"
+#include "perimode/linalg/row_product.hpp"
 
 namespace perimode {
 
@@ -23,6 +24,11 @@ enum class StiffnessForm { automatic, stencil, bonds, blocks };
 template <int Dim>
 [[nodiscard]] LinearOperator stiffness_operator(const Body<Dim>& body,
                                                 StiffnessForm form = StiffnessForm::automatic);
+
+/// The same product handed out piece by piece (row_product.hpp), to the last bit. The stencil hands rows out
+/// as they are summed and leaves x to `take`; so does the bond form where there are supports or walls.
+template <int Dim>
+[[nodiscard]] RowProduct stiffness_rows(const Body<Dim>& body, StiffnessForm form = StiffnessForm::automatic);
 
 /// Bytes that stiffness_operator takes besides the body.
 template <int Dim>
