@@ -136,7 +136,8 @@ RowProduct stiffness_rows(const Body<Dim>& body, StiffnessForm form) {
     default: {
       auto stencil = make_stencil(body);
       const Index pieces = stencil.pieces;
-      return shared_rows(size, pieces, true, std::move(stencil));
+      const bool in_place = stencil.in_place;
+      return shared_rows(size, pieces, in_place, std::move(stencil));
     }
   }
 }

@@ -56,6 +56,7 @@ struct Stencil {
   std::vector<FillRun> fill;
   std::vector<Index> layer_fill;  ///< first filling of each padded layer
   Index pieces = 0;
+  bool in_place = true;  ///< ghosts follow particles of their own layer, or lie beyond the last ones
 
   /// Memory of one thread.
   struct Work {

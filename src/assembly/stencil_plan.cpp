@@ -173,6 +173,11 @@ void add_fillings(Stencil<Dim>& s) {
   const Index* occupant = s.bonds->occupant.data();
   for (Index layer = 0; layer < s.layers + 2 * s.reach; ++layer, occupant += s.layer_cells) {
     s.layer_fill.push_back(static_cast<Index>(s.fill.size()));
+    const bool inner = layer >= s.reach && layer < s.layers + s.reach;
+    for (Index cell = 0; cell < s.layer_cells && inner && s.in_place; ++cell) {
+      if (occupant[cell] >= n)
+        s.in_place = s.bonds->home[boundary.image[occupant[cell] - n]] / s.layer_cells == layer;
+    }
     for (Index cell = 0; cell < s.layer_cells;) {
       FillRun run = filling(cell, occupant[cell]);
       const Index per_cell = step_per_cell[static_cast<std::size_t>(run.what)];
