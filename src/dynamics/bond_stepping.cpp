@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "perimode/core/error.hpp"
+#include "perimode/dynamics/central_difference.hpp"
+
+namespace perimode {
+
+namespace {
+
+constexpr Index block = 4096;           ///< terms of a partial sum: sums do not depend on the threads
+constexpr Index parallel_dofs = 10000;  ///< from which threads pay
+
+template <class Term>
+double sum_over(Index n, const Term& term) {
+  std::vector<double> partial(static_cast<std::size_t>((n + block - 1) / block));
+#pragma omp parallel for schedule(static) if (n >= parallel_dofs)
+  for (Index first = 0; first < n; first += block) {
+    double sum = 0.0;
+    for (Index d = first; d < std::min(n, first + block); ++d) sum += term(d);
+    partial[static_cast<std::size_t>(first / block)] = sum;
+  }
+  double total = 0.0;
+  for (const double p : partial) total += p;
+  return total;
+}
+
+std::vector<double> numbers_of(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+
+const std::vector<double>& find(const IntegratorState& state, const char* name, std::size_t size) {
+  const auto at = state.numbers.find(name);
+  if (at == state.numbers.end() || at->second.size() != size) {
+    invalid_input({fmt::format("{} numbers named {}", size, name),
+                   at == state.numbers.end() ? "none" : fmt::format("{}", at->second.size()),
+                   "resume with the case that wrote the checkpoint",
+                   {}});
+  }
+  return at->second;
+}
+
+/// At step n: q_n, v_{n-1/2} and the force on the free dofs at q_n, in which all bonds broken by then are
+/// missing; so what a step reports is known when it is reached.
+template <int Dim>
+class BondStepping final : public Integrator {
+ public:
+  BondStepping(const Motion& motion, BondForces<Dim>& forces, double dt)
+      : motion_(&motion), forces_(&forces), dt_(dt), n_(forces.product().size) {
+    if (motion.mass.size() != n_) {
+      invalid_input({fmt::format("masses of {} free dofs", n_),
+                     fmt::format("{}", motion.mass.size()),
+                     "make motion and forces of the same body",
+                     {}});
+    }
+    q_ = v_ = force_ = Eigen::VectorXd::Zero(n_);
+    if (motion.stiffness_damping > 0.0) damped_ = Eigen::VectorXd::Zero(n_);
+  }
+
+  void start(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override {
+    step_ = 0;
+    q_ = q;
+    find_force(v);
+    for (Index d = 0; d < n_; ++d) v_[d] = v[d] - 0.5 * dt_ * (force_[d] / motion_->mass[d] - rate(d) * v[d]);
+    reaction_ = forces_->moving_force();
+    work_ = damping_ = {};
+    power_ = damping_power();
+    energies_ = {};
+    find_energies();
+    energies_.initial = energies_.kinetic + energies_.strain + energies_.broken;
+  }
+
+  void advance(bool with_energies) override {
+    const std::vector<double> load = load_factors();
+#pragma omp parallel for schedule(static) if (n_ >= parallel_dofs)
+    for (Index d = 0; d < n_; ++d) {
+      v_[d] = next_velocity(d);
+      q_[d] += dt_ * v_[d];
+    }
+    ++step_;
+    const std::vector<double> later = load_factors();
+    for (std::size_t k = 0; k < motion_->force.size(); ++k) {
+      const ForceTerm& term = motion_->force[k];
+      if (term.motion) continue;
+      double power = 0.0;
+      for (std::size_t e = 0; e < term.dof.size(); ++e) power += term.value[e] * v_[term.dof[e]];
+      work_.add(0.5 * (load[k] + later[k]) * power * dt_);
+    }
+    const std::vector<double> given = forces_->moving_displacement();
+    find_force(v_);
+    for (std::size_t m = 0; m < given.size(); ++m) {
+      work_.add(0.5 * (reaction_[m] + forces_->moving_force()[m]) *
+                (forces_->moving_displacement()[m] - given[m]));
+    }
+    reaction_ = forces_->moving_force();
+    const double power = damping_power();
+    damping_.add(0.5 * dt_ * (power_ + power));
+    power_ = power;
+    if (with_energies) find_energies();
+  }
+
+  [[nodiscard]] std::int64_t step() const override { return step_; }
+  [[nodiscard]] const Eigen::VectorXd& displacement() const override { return q_; }
+  [[nodiscard]] Eigen::VectorXd velocity() const override {
+    return Eigen::VectorXd::NullaryExpr(n_,
+                                        [&](Eigen::Index d) { return velocity_at(static_cast<Index>(d)); });
+  }
+  [[nodiscard]] Energies energies() const override { return energies_; }
+  [[nodiscard]] std::int64_t broken_bonds() const override { return forces_->broken(); }
+
+  [[nodiscard]] IntegratorState save() const override {
+    auto bonds = forces_->save();
+    const Energies& e = energies_;
+    IntegratorState state;
+    state.step = step_;
+    state.numbers["displacement"] = numbers_of(q_);
+    state.numbers["velocity"] = numbers_of(v_);
+    state.numbers["force"] = numbers_of(force_);
+    state.numbers["damped"] = numbers_of(damped_);
+    state.numbers["reaction"] = reaction_;
+    state.numbers["energies"] = {e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.initial};
+    state.numbers["sums"] = {work_.sum, work_.lost, damping_.sum, damping_.lost, power_, bonds.energy};
+    state.bits["alive"] = std::move(bonds.alive);
+    state.bits["broken"] = {static_cast<std::uint64_t>(bonds.broken)};
+    return state;
+  }
+
+  void restore(const IntegratorState& state) override {
+    const auto alive = state.bits.find("alive");
+    const auto broken = state.bits.find("broken");
+    if (alive == state.bits.end() || broken == state.bits.end() || broken->second.size() != 1) {
+      invalid_input(
+          {"a state of bonds that break", "another", "resume with the case that wrote the checkpoint", {}});
+    }
+    const auto vector = [&](const char* name, Eigen::Index size) -> Eigen::VectorXd {
+      return Eigen::Map<const Eigen::VectorXd>(find(state, name, static_cast<std::size_t>(size)).data(),
+                                               size);
+    };
+    const auto& e = find(state, "energies", 6);
+    const auto& sums = find(state, "sums", 6);
+    std::vector<double> reaction = find(state, "reaction", forces_->moving_force().size());
+    Eigen::VectorXd q = vector("displacement", n_);
+    Eigen::VectorXd v = vector("velocity", n_);
+    Eigen::VectorXd force = vector("force", n_);
+    Eigen::VectorXd damped = vector("damped", damped_.size());
+    forces_->restore({alive->second, static_cast<Offset>(broken->second[0]), sums[5]});
+    step_ = state.step;
+    forces_->set_time(time());
+    q_ = std::move(q);
+    v_ = std::move(v);
+    force_ = std::move(force);
+    damped_ = std::move(damped);
+    reaction_ = std::move(reaction);
+    energies_ = {e[0], e[1], e[2], e[3], e[4], e[5]};
+    work_ = {sums[0], sums[1]};
+    damping_ = {sums[2], sums[3]};
+    power_ = sums[4];
+  }
+
+ private:
+  [[nodiscard]] double time() const { return static_cast<double>(step_) * dt_; }
+  [[nodiscard]] double rate(Index d) const {
+    return motion_->damping_rate.size() == 0 ? 0.0 : motion_->damping_rate[d];
+  }
+  /// v_{n+1/2} from v_{n-1/2}: diagonal damping acts on their mean.
+  [[nodiscard]] double next_velocity(Index d) const {
+    const double half = 0.5 * dt_ * rate(d);
+    return ((1.0 - half) * v_[d] + dt_ * force_[d] / motion_->mass[d]) / (1.0 + half);
+  }
+  [[nodiscard]] double velocity_at(Index d) const { return 0.5 * (v_[d] + next_velocity(d)); }
+
+  [[nodiscard]] std::vector<double> load_factors() const {
+    std::vector<double> h;
+    for (const ForceTerm& term : motion_->force) h.push_back(term.motion ? 0.0 : value_at(term.time, time()));
+    return h;
+  }
+
+  /// The force at q_n and the instant of step n; stiffness damping by velocity v.
+  void find_force(const Eigen::VectorXd& v) {
+    forces_->set_time(time());
+    forces_->product().apply(q_.data(), [&](const RowPiece& piece) {
+      for (Index r = 0; r < piece.count; ++r) force_[piece.first + r] = -piece.y[r];
+    });
+    const std::vector<double> load = load_factors();
+    for (std::size_t k = 0; k < motion_->force.size(); ++k) {
+      const ForceTerm& term = motion_->force[k];
+      if (term.motion) continue;
+      for (std::size_t e = 0; e < term.dof.size(); ++e) force_[term.dof[e]] += load[k] * term.value[e];
+    }
+    if (damped_.size() == 0) return;
+    motion_->stiffness.apply(v.data(), [&](const RowPiece& piece) {
+      for (Index r = 0; r < piece.count; ++r) {
+        damped_[piece.first + r] = motion_->stiffness_damping * piece.y[r];
+        force_[piece.first + r] -= damped_[piece.first + r];
+      }
+    });
+  }
+
+  /// Power that damping takes at step n, W.
+  [[nodiscard]] double damping_power() const {
+    double power = 0.0;
+    if (motion_->damping_rate.size() > 0) {
+      power += sum_over(n_, [&](Index d) {
+        const double v = velocity_at(d);
+        return motion_->damping_rate[d] * motion_->mass[d] * v * v;
+      });
+    }
+    if (damped_.size() > 0) power += sum_over(n_, [&](Index d) { return velocity_at(d) * damped_[d]; });
+    return power;
+  }
+
+  void find_energies() {
+    energies_.kinetic = sum_over(n_, [&](Index d) {
+      const double v = velocity_at(d);
+      return 0.5 * motion_->mass[d] * v * v;
+    });
+    energies_.strain = forces_->strain_energy(q_.data());
+    energies_.broken = forces_->broken_energy();
+    energies_.external_work = work_.value();
+    energies_.damping = damping_.value();
+  }
+
+  const Motion* motion_;
+  BondForces<Dim>* forces_;
+  double dt_;
+  Index n_;
+  std::int64_t step_ = 0;
+  Eigen::VectorXd q_, v_, force_;
+  Eigen::VectorXd damped_;        ///< beta K v at the last evaluation, N
+  std::vector<double> reaction_;  ///< internal force on the dofs that are moved, at step n
+  Energies energies_;
+  CompensatedSum work_, damping_;
+  double power_ = 0.0;
+};
+
+}  // namespace
+
+template <int Dim>
+std::unique_ptr<Integrator> central_difference(const Motion& motion, BondForces<Dim>& forces, double dt) {
+  return std::make_unique<BondStepping<Dim>>(motion, forces, dt);
+}
+
+template std::unique_ptr<Integrator> central_difference<1>(const Motion&, BondForces<1>&, double);
+template std::unique_ptr<Integrator> central_difference<2>(const Motion&, BondForces<2>&, double);
+template std::unique_ptr<Integrator> central_difference<3>(const Motion&, BondForces<3>&, double);
+
+}  // namespace perimode
