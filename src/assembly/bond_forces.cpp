@@ -69,6 +69,7 @@ struct BondForces<Dim>::Implementation {
   std::unique_ptr<BondEvaluation<Dim>> evaluation;
   std::vector<Moving> dofs, ghosts;
   std::vector<double> moving_displacement, moving_force;
+  std::vector<OverStretched> last;  ///< broken in the last evaluation
   Offset broken = 0;
   double energy = 0.0;
   RowProduct product;
@@ -104,6 +105,7 @@ struct BondForces<Dim>::Implementation {
   }
 
   void apply(const double* q, const std::function<void(const RowPiece&)>& take) {
+    last.clear();
     for (const OverStretched& bond : evaluation->forces(given, q, take, moving_force.data())) break_one(bond);
   }
 
@@ -111,16 +113,17 @@ struct BondForces<Dim>::Implementation {
     std::visit(
         [&](const auto& bonds) {
           if (!is_alive(bonds, bond.particle, bond.slot)) return;  // its other end came first
-          energy += energy_of(bond.particle, end_at(bonds, bond.particle, bond.slot));
+          const BondEnd<Dim> end = end_at(bonds, bond.particle, bond.slot);
+          energy += energy_of(bond.particle, end, evaluation->relative(bond.particle, end));
           ++broken;
+          last.push_back(bond);
           break_bond(body->bonds, bond.particle, bond.slot);
         },
         body->bonds);
   }
 
-  /// Energy a bond holds at the displacements of the last evaluation, J.
-  [[nodiscard]] double energy_of(Index i, const BondEnd<Dim>& end) const {
-    const Point<Dim> eta = evaluation->relative(i, end);
+  /// Energy of a bond of particle i, J.
+  [[nodiscard]] double energy_of(Index i, const BondEnd<Dim>& end, const Point<Dim>& eta) const {
     double extension = end.xi.dot(eta) / end.length;
     if (turning) {
       const Point<Dim> y = end.xi + eta;
@@ -129,6 +132,35 @@ struct BondForces<Dim>::Implementation {
     double share = 1.0;
     if (end.neighbour >= body->count()) share = ghost_share(body->boundary, end.neighbour - body->count());
     return 0.5 * share * bond_stiffness(*body, i, end) * (extension * extension);
+  }
+
+  /// Displacement of a particle or ghost at q.
+  [[nodiscard]] Point<Dim> displacement(const double* q, Index partner) const {
+    const BoundaryMap<Dim>& map = body->boundary;
+    const bool ghost = partner >= body->count();
+    const auto g = static_cast<std::size_t>(ghost ? partner - body->count() : 0);
+    const auto first = static_cast<std::size_t>(ghost ? map.image[g] : partner) * Dim;
+    Point<Dim> u;
+    for (std::size_t a = 0; a < Dim; ++a) {
+      const Index row = map.free_number[first + a];
+      u[a] = row >= 0 ? q[row] : given.dof[first + a];
+      if (ghost) u[a] = map.coefficient[g * Dim + a] * u[a] + given.ghost[g * Dim + a];
+    }
+    return u;
+  }
+
+  [[nodiscard]] double last_energy(const double* q) const {
+    double sum = 0.0;
+    for (const OverStretched& bond : last) {
+      std::visit(
+          [&](const auto& bonds) {
+            const BondEnd<Dim> end = end_at(bonds, bond.particle, bond.slot);
+            sum += energy_of(bond.particle, end,
+                             displacement(q, end.neighbour) - displacement(q, bond.particle));
+          },
+          body->bonds);
+    }
+    return sum;
   }
 };
 
@@ -172,6 +204,11 @@ Offset BondForces<Dim>::broken() const {
 template <int Dim>
 double BondForces<Dim>::broken_energy() const {
   return implementation_->energy;
+}
+
+template <int Dim>
+double BondForces<Dim>::last_broken_energy(const double* q) const {
+  return implementation_->last_energy(q);
 }
 
 template <int Dim>

@@ -64,7 +64,7 @@ class BondStepping final : public Integrator {
     find_force(v);
     for (Index d = 0; d < n_; ++d) v_[d] = v[d] - 0.5 * dt_ * (force_[d] / motion_->mass[d] - rate(d) * v[d]);
     reaction_ = forces_->moving_force();
-    work_ = damping_ = {};
+    work_ = damping_ = broken_ = {};
     power_ = damping_power();
     energies_ = {};
     find_energies();
@@ -88,7 +88,9 @@ class BondStepping final : public Integrator {
       work_.add(0.5 * (load[k] + later[k]) * power * dt_);
     }
     const std::vector<double> given = forces_->moving_displacement();
+    const Offset broken = forces_->broken();
     find_force(v_);
+    if (forces_->broken() != broken) correct_broken_energy();
     for (std::size_t m = 0; m < given.size(); ++m) {
       work_.add(0.5 * (reaction_[m] + forces_->moving_force()[m]) *
                 (forces_->moving_displacement()[m] - given[m]));
@@ -120,7 +122,8 @@ class BondStepping final : public Integrator {
     state.numbers["damped"] = numbers_of(damped_);
     state.numbers["reaction"] = reaction_;
     state.numbers["energies"] = {e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.initial};
-    state.numbers["sums"] = {work_.sum, work_.lost, damping_.sum, damping_.lost, power_, bonds.energy};
+    state.numbers["sums"] = {work_.sum,   work_.lost,   damping_.sum, damping_.lost,
+                             broken_.sum, broken_.lost, power_,       bonds.energy};
     state.bits["alive"] = std::move(bonds.alive);
     state.bits["broken"] = {static_cast<std::uint64_t>(bonds.broken)};
     return state;
@@ -138,13 +141,13 @@ class BondStepping final : public Integrator {
                                                size);
     };
     const auto& e = find(state, "energies", 6);
-    const auto& sums = find(state, "sums", 6);
+    const auto& sums = find(state, "sums", 8);
     std::vector<double> reaction = find(state, "reaction", forces_->moving_force().size());
     Eigen::VectorXd q = vector("displacement", n_);
     Eigen::VectorXd v = vector("velocity", n_);
     Eigen::VectorXd force = vector("force", n_);
     Eigen::VectorXd damped = vector("damped", damped_.size());
-    forces_->restore({alive->second, static_cast<Offset>(broken->second[0]), sums[5]});
+    forces_->restore({alive->second, static_cast<Offset>(broken->second[0]), sums[7]});
     step_ = state.step;
     forces_->set_time(time());
     q_ = std::move(q);
@@ -155,7 +158,8 @@ class BondStepping final : public Integrator {
     energies_ = {e[0], e[1], e[2], e[3], e[4], e[5]};
     work_ = {sums[0], sums[1]};
     damping_ = {sums[2], sums[3]};
-    power_ = sums[4];
+    broken_ = {sums[4], sums[5]};
+    power_ = sums[6];
   }
 
  private:
@@ -210,13 +214,23 @@ class BondStepping final : public Integrator {
     return power;
   }
 
+  /// A bond found broken at step n gave no force to the kick from t_{n-1/2} on, so it took along the energy
+  /// it held then.
+  void correct_broken_energy() {
+    const double now = forces_->last_broken_energy(q_.data());
+    const Eigen::VectorXd earlier = q_ - 0.5 * dt_ * v_;
+    forces_->set_time(time() - 0.5 * dt_);
+    broken_.add(forces_->last_broken_energy(earlier.data()) - now);
+    forces_->set_time(time());
+  }
+
   void find_energies() {
     energies_.kinetic = sum_over(n_, [&](Index d) {
       const double v = velocity_at(d);
       return 0.5 * motion_->mass[d] * v * v;
     });
     energies_.strain = forces_->strain_energy(q_.data());
-    energies_.broken = forces_->broken_energy();
+    energies_.broken = forces_->broken_energy() + broken_.value();
     energies_.external_work = work_.value();
     energies_.damping = damping_.value();
   }
@@ -231,6 +245,7 @@ class BondStepping final : public Integrator {
   std::vector<double> reaction_;  ///< internal force on the dofs that are moved, at step n
   Energies energies_;
   CompensatedSum work_, damping_;
+  CompensatedSum broken_;  ///< energy of broken bonds half a step earlier, less that when they were found, J
   double power_ = 0.0;
 };
 

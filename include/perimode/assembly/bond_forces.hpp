@@ -51,6 +51,8 @@ class BondForces {
   /// Bonds broken so far (each once) and the energy they held when they broke, J.
   [[nodiscard]] Offset broken() const;
   [[nodiscard]] double broken_energy() const;
+  /// Energy that the bonds broken in the last evaluation held at other displacements q (set_time), J.
+  [[nodiscard]] double last_broken_energy(const double* q) const;
   /// Strain energy of the alive bonds at displacements q of the free dofs, J. Cost as an evaluation.
   [[nodiscard]] double strain_energy(const double* q) const;
 
