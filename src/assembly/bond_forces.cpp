@@ -92,7 +92,8 @@ struct BondForces<Dim>::Implementation {
     moving_force.resize(dofs.size());
     evaluation = make_bond_evaluation(of, turning, critical_measures(of, critical_stretch, turning), no_fail);
     set_time(0.0);
-    product = {map.free, evaluation->pieces(), [this](const double* q, const auto& take) { apply(q, take); }};
+    product = {map.free, evaluation->pieces(), true,
+               [this](const double* q, const auto& take) { apply(q, take); }};
   }
 
   void set_time(double t) {

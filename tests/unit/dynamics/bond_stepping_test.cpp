@@ -19,20 +19,11 @@ using test::add_wall;
 using test::box_model;
 using test::fix_face;
 
-/// The linear product in one piece.
-RowProduct rows_of(LinearOperator a) {
-  const Index n = a.size;
-  return {n, 1, [a, y = Eigen::VectorXd(n)](const double* x, const auto& take) mutable {
-            a.apply(x, y.data());
-            take({0, 0, static_cast<Index>(y.size()), y.data()});
-          }};
-}
-
 template <int Dim>
 Motion motion_of(const Body<Dim>& body) {
   Motion motion;
   motion.mass = lumped_mass(body);
-  motion.stiffness = rows_of(stiffness_operator(body, StiffnessForm::blocks));
+  motion.stiffness = in_rows(stiffness_operator(body, StiffnessForm::blocks));
   return motion;
 }
 
