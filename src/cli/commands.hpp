@@ -41,5 +41,6 @@ int run_static(const Arguments& arguments, Console& console);
 int run_check(const Arguments& arguments, Console& console);
 int run_new_modal(const Arguments& arguments, Console& console);
 int run_new_static(const Arguments& arguments, Console& console);
+int run_new_transient(const Arguments& arguments, Console& console);
 
 }  // namespace perimode::cli

@@ -43,4 +43,8 @@ int run_new_static(const Arguments& arguments, Console& console) {
   return write_template(static_template(), "static", arguments, console);
 }
 
+int run_new_transient(const Arguments& arguments, Console& console) {
+  return write_template(transient_template(), "transient", arguments, console);
+}
+
 }  // namespace perimode::cli

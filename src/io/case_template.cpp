@@ -101,4 +101,67 @@ output:
 )";
 }
 
+std::string_view transient_template() {
+  return R"(# A steel plate that is hit at its left edge: a pulse runs through it and out into damping layers.
+# Run:    perimode transient this_file.yaml
+# Check:  perimode check this_file.yaml      (reads everything, says the stable step, runs nothing)
+# All numbers are plain SI: m, kg, s, N, Pa. Every key is described in docs/case_reference.md.
+title: steel plate hit at its left edge
+
+body:
+  dimension: 2                  # 1 bar, 2 plate or slice, 3 solid
+  plane: stress                 # 2D: stress (Poisson's ratio 1/3) | strain (1/4); the theory fixes it
+  thickness: 0.005              # 2D, m   (in 1D: area, m2)
+  particles:
+    grid:                       # particles sit at the centres of square cells
+      lower: [0, 0]             # m
+      upper: [0.4, 0.2]         # the box holds a whole number of cells
+      spacing: 0.0025           # m; a wave wants at least 10 of them
+    # file: cloud.csv           # instead of grid: columns x,y,volume[,block] | mesh.msh | mesh.exo
+  horizon: { ratio: 3 }         # in spacings | { length: 0.03 } in m | { neighbours: 30 } (clouds)
+  # precracks:                  # bonds that cross these segments are cut
+  #   - { from: [0.2, 0.0], to: [0.2, 0.05] }
+
+material:
+  youngs_modulus: 210.0e+9      # Pa
+  density: 7850                 # kg/m3
+  micromodulus: { kernel: constant }   # constant | conical | gaussian (with p) | inverse_distance
+  calibration: discrete         # continuum | discrete | discrete_cut
+  volume_correction: linear     # none | linear | exact (1D)
+  # fracture_energy: 135.0      # J/m2: bonds break; or critical_stretch: 1.8e-3
+
+# kinematics: large_rotation    # bonds turn with the body; default: linear
+
+# boundary:
+#   - { fix: [x, y], at: { face: x+, layers: 3 } }
+#   - { prescribe: { x: 1.0e-5 }, at: { face: x-, layers: 3 }, time: { ramp: 1.0e-5 } }
+#   - { wall: y-, type: mirror }  # a symmetry plane; see docs/case_reference.md for the others
+
+analysis:
+  transient:
+    method: central_difference  # explicit | newmark | hht (implicit) | modal (superposition of modes)
+    dt: auto                    # s; auto: 0.9 of the stable step, shortened to hit the end
+    end: 1.2e-4                 # s
+    # initial:                  # at rest without it: formulas, { file: u0.csv } or { mode: { file, number, scale } }
+    #   displacement: ["exp(-1.0e+4*(x-0.2)^2)*1.0e-6", 0]
+    loads:                      # time: constant | ramp | step | half_sine | ricker | gaussian | table | expression
+      - { traction: [1.0e+6, 0], at: { face: x-, layers: 1 }, time: { ricker: 1.0e+5 } }   # Pa; Hz
+    sponge:                     # outgoing waves die in layers at these faces
+      faces: [x+, y-, y+]
+      width: 0.04               # m; at least half a wave
+    # damping: { rayleigh: [100, 1.0e-9] }    # C = 100 M + 1e-9 K
+    probes:                     # columns of history.csv, beside the energies
+      middle: { displacement_at: [0.2, 0.1] }
+      edge: { velocity_at: [0.0, 0.1] }
+      gauge: { strain_between: [[0.29, 0.1], [0.31, 0.1]] }
+    history_every: 1            # steps
+    fields_every: 50            # steps | fields_at: [4.0e-5, 8.0e-5] in s
+    # checkpoint_every: 1000    # steps; go on with: perimode transient this_file.yaml --resume
+
+output:
+  directory: out/plate          # history.csv, fields.exo (ParaView) and summary.json
+  fields: [displacement, energy]    # also: velocity, damage, strain, stress
+)";
+}
+
 }  // namespace perimode

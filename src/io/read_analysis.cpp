@@ -86,6 +86,7 @@ OutputSpec read_output(const Cursor& cursor) {
     output.fields.clear();
     for (const Cursor& item : fields->items("[displacement]")) {
       output.fields.push_back(item.choice<std::string>({{"displacement", "displacement"},
+                                                        {"velocity", "velocity"},
                                                         {"damage", "damage"},
                                                         {"strain", "strain"},
                                                         {"stress", "stress"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Any bytes as a case file: they are read, or refused with invalid_input. Lines that begin with "#set " are
-// overrides, as after --set. A small cloud lies beside the case.
+// overrides, as after --set. A small cloud, a table of time and an initial field lie beside the case.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +19,8 @@ std::filesystem::path case_file() {
   const auto folder = std::filesystem::temp_directory_path() / "perimode_fuzz";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "cloud.csv") << "x,y,volume,block\n0,0,0.5,core\n1,0,0.5,\n0,1,0.5,core\n";
+  std::ofstream(folder / "a.csv") << "time,value\n0,0\n1,1\n";
+  std::ofstream(folder / "u0.csv") << "x,y\n";
   return folder / "case.yaml";
 }
 

@@ -11,4 +11,7 @@ namespace perimode {
 /// A complete, commented case of a static analysis, as `perimode new static` prints it.
 [[nodiscard]] std::string_view static_template();
 
+/// A complete, commented case of a transient analysis, as `perimode new transient` prints it.
+[[nodiscard]] std::string_view transient_template();
+
 }  // namespace perimode

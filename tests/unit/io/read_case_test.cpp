@@ -252,6 +252,15 @@ TEST(Override, StartsAListWhereThereIsNone) {
   EXPECT_EQ(read_sample("solid", {"boundary.0={ wall: z-, type: even }"}).model.boundary.size(), 1U);
 }
 
+TEST(CaseTemplate, OfATransientAnalysisIsAGoodCase) {
+  const Case result = read_text(std::string(transient_template()));
+  ASSERT_TRUE(result.transient.has_value());
+  EXPECT_EQ(result.transient->loads.size(), 1U);
+  EXPECT_EQ(result.transient->probes.size(), 3U);
+  EXPECT_EQ(result.transient->sponge->faces.size(), 3U);
+  EXPECT_TRUE(result.files.empty());
+}
+
 TEST(CaseTemplate, IsAGoodCase) {
   const Case result = read_text(std::string(modal_template()));
   EXPECT_EQ(result.model.dimension, 2);
