@@ -15,14 +15,12 @@
 #include "perimode/dynamics/modal_superposition.hpp"
 #include "perimode/dynamics/motion.hpp"
 #include "perimode/dynamics/newmark.hpp"
+#include "perimode/dynamics/shifted_solver.hpp"
 #include "perimode/dynamics/stable_step.hpp"
 
 namespace perimode {
 
 enum class TimeMethod { central_difference, newmark, hht, modal };
-
-/// How the equations of an implicit step are solved; automatic: by counted cost.
-enum class ImplicitSolver { automatic, factor, cg };
 
 /// One quantity followed through time. displacement, velocity: of the particle nearest to `at` (ties to the
 /// higher coordinate). strain: (u_b - u_a) . (x_b - x_a) / |x_b - x_a|^2 of the particles nearest to at and

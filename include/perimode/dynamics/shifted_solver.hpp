@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "perimode/assembly/body.hpp"
+#include "perimode/dynamics/newmark.hpp"
+#include "perimode/linalg/operator.hpp"
+
+namespace perimode {
+
+/// How the equations of an implicit step are solved; automatic: by counted cost.
+enum class ImplicitSolver { automatic, factor, cg };
+
+/// Solvers of (K + diag(d)) x = b for the steps of `newmark`: a Cholesky factor (LU where K is unsymmetric),
+/// made once, or conjugate gradients with block Jacobi from the guess, until |b - A x| <= tolerance |b| or
+/// round-off. `ratio` is dt over the stable step of central differences: conjugate gradients take a few
+/// products per unit of it. automatic takes what moves fewer bytes in a step, the work of the factor shared
+/// among a thousand steps, and no factor that needs more than 8 GB; `description` says which, and why. `body`
+/// and what `stiffness` refers to have to outlive the solver. A solve throws Error(solver_failure) where
+/// conjugate gradients give up. Throws invalid_input: cg where K is unsymmetric.
+/// Cost: for automatic, where a factor is not plainly too dear, an assembly and an ordering.
+template <int Dim>
+[[nodiscard]] ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness,
+                                                bool symmetric, ImplicitSolver which, double ratio,
+                                                double tolerance, std::string& description);
+
+/// What make_shifted_solver would choose, and why.
+template <int Dim>
+[[nodiscard]] std::string describe_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which,
+                                                  double ratio, double tolerance = 1e-12);
+
+}  // namespace perimode

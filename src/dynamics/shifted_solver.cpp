@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "perimode/dynamics/shifted_solver.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "linalg/fused.hpp"
+#include "perimode/assembly/assemble.hpp"
+#include "perimode/assembly/operators.hpp"
+#include "perimode/core/error.hpp"
+#include "perimode/linalg/conjugate_gradients.hpp"
+#include "perimode/linalg/factor.hpp"
+
+namespace perimode {
+
+namespace {
+
+/// Iterations of block-Jacobi conjugate gradients in a step, from the acceleration of the last one: counted
+/// for squares and cubes, tests/bench/bench_implicit.cpp.
+double cg_iterations(double ratio, double tolerance) {
+  return 2.0 + 0.25 * (1.0 + ratio) * std::log(2.0 / tolerance);
+}
+
+/// Bytes per dof that an iteration moves: vectors, block Jacobi, the operator and, where that stores next to
+/// nothing, its arithmetic at half a byte a multiplication.
+template <int Dim>
+double bytes_per_iteration(const Body<Dim>& body) {
+  const double dofs = body.boundary.free;
+  const double family = 2.0 * static_cast<double>(count_bonds(body.bonds, body.count())) / body.count();
+  return 8.0 * 16.0 + operator_bytes(body) / dofs + 0.5 * Dim * family;
+}
+
+struct Choice {
+  ImplicitSolver solver = ImplicitSolver::factor;
+  std::string reason;
+};
+
+/// Above so many dofs not even the ordering is tried, by dimension.
+constexpr double most_dofs_to_order[] = {1e12, 4e6, 4e5};
+constexpr double most_factor_bytes = 8e9;
+/// Steps that share the making of a factor; its arithmetic counts a byte an operation.
+constexpr double steps_of_a_run = 1000.0;
+
+template <int Dim>
+Choice automatic(const Body<Dim>& body, double ratio, double tolerance) {
+  if (Dim == 1) return {ImplicitSolver::factor, "the factor of a bar is a narrow band"};
+  const double dofs = body.boundary.free;
+  const double iterations = cg_iterations(ratio, tolerance);
+  const double moved = iterations * bytes_per_iteration(body);
+  const std::string cg =
+      fmt::format("about {:.0f} iterations move {:.1f} kB per dof and step", iterations, 1e-3 * moved);
+  if (dofs > most_dofs_to_order[Dim - 1])
+    return {ImplicitSolver::cg, fmt::format("{}; {:.0f} dofs are too many for a factor", cg, dofs)};
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  const FillEstimate fill =
+      predict_fill_with_order(k, dissection_order(k, particle_of_free_dof(body), particle_positions(body)));
+  const double factor = (2.0 * fill.factor_bytes + fill.flops / steps_of_a_run) / dofs;
+  const std::string counted =
+      fmt::format("{}, a factor of {:.2f} GB {:.1f} kB", cg, 1e-9 * fill.peak_bytes, 1e-3 * factor);
+  const bool fits = fill.peak_bytes <= most_factor_bytes;
+  return {fits && factor <= moved ? ImplicitSolver::factor : ImplicitSolver::cg, counted};
+}
+
+template <int Dim>
+Choice choose(const Body<Dim>& body, bool symmetric, ImplicitSolver which, double ratio, double tolerance) {
+  if (!symmetric) {
+    if (which == ImplicitSolver::cg) {
+      invalid_input({"solver auto or factor where walls make the equations unsymmetric",
+                     "cg",
+                     "leave the solver out, or use mirror, antimirror or zero_layer walls",
+                     {}});
+    }
+    return {ImplicitSolver::factor, "walls make the equations unsymmetric"};
+  }
+  if (which != ImplicitSolver::automatic) return {which, "asked for"};
+  return automatic(body, ratio, tolerance);
+}
+
+std::string name(const Choice& choice, bool symmetric) {
+  const char* solver = choice.solver == ImplicitSolver::cg ? "cg block jacobi"
+                       : symmetric                         ? "cholesky"
+                                                           : "lu";
+  return fmt::format("{}: {}", solver, choice.reason);
+}
+
+/// What is no number would be refused by a solver; the run has to end as unstable instead.
+bool hopeless(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  if (b.allFinite()) return false;
+  x.setConstant(b.size(), std::numeric_limits<double>::quiet_NaN());
+  return true;
+}
+
+template <int Dim>
+ShiftedSolve by_factor(const Body<Dim>& body, bool symmetric, const Eigen::VectorXd& shift) {
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  if (!symmetric) {
+    const auto factor = std::make_shared<LuFactor>(k, -1.0, shift);
+    return [factor](const Eigen::VectorXd& b, const Eigen::VectorXd&, Eigen::VectorXd& x) {
+      if (!hopeless(b, x)) x = factor->solve(b);
+      return 0;
+    };
+  }
+  const auto factor = std::make_shared<CholeskyFactor>(CholeskyFactor::with_order(
+      k, dissection_order(k, particle_of_free_dof(body), particle_positions(body))));
+  if (factor->factorize(k, -1.0, shift) != FactorStatus::done) {
+    invalid_input({"a stiffness that makes the implicit step solvable",
+                   "one that is not positive definite beside the masses",
+                   "check the material: bonds must not push when they are stretched",
+                   {}});
+  }
+  return [factor](const Eigen::VectorXd& b, const Eigen::VectorXd&, Eigen::VectorXd& x) {
+    if (!hopeless(b, x)) x = factor->solve(b);
+    return 0;
+  };
+}
+
+/// K + diag(d) in one product and one pass.
+LinearOperator shifted(const LinearOperator& stiffness, const Eigen::VectorXd& shift) {
+  return {stiffness.size, [stiffness, shift](const double* x, double* y) {
+            stiffness.apply(x, y);
+            for_each_chunk(stiffness.size, [&](Index first, Index count) {
+              for (Index i = first; i < first + count; ++i) y[i] += shift[i] * x[i];
+            });
+          }};
+}
+
+template <int Dim>
+ShiftedSolve by_iterations(const Body<Dim>& body, const LinearOperator& stiffness,
+                           const Eigen::VectorXd& shift, double tolerance) {
+  std::vector<double> blocks = diagonal_blocks(body);
+  for (std::size_t d = 0; d < body.boundary.free_number.size(); ++d) {
+    const Index number = body.boundary.free_number[d];
+    if (number >= 0) blocks[d * Dim + d % Dim] += shift[number];
+  }
+  // Where rounding of x alone leaves a larger residual, that is all there is to be had.
+  const double rounding =
+      8.0 * std::numeric_limits<double>::epsilon() * (1.0 + stiffness_bound(body) / shift.minCoeff());
+  return [a = shifted(stiffness, shift), jacobi = block_jacobi(blocks, Dim, body.boundary.free_number),
+          tolerance, rounding](const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Eigen::VectorXd& x) {
+    if (hopeless(b, x)) return 0;
+    CgOptions options;
+    options.tolerance = std::max(tolerance, rounding);
+    CgResult cg = conjugate_gradients(a, b, jacobi, options, &guess);
+    if (!cg.converged && !(cg.residual <= 10.0 * options.tolerance)) {
+      throw Error(ErrorKind::solver_failure,
+                  "conjugate gradients did not solve an implicit step: " + cg.message);
+    }
+    x = std::move(cg.x);
+    return cg.iterations;
+  };
+}
+
+}  // namespace
+
+template <int Dim>
+ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness, bool symmetric,
+                                  ImplicitSolver which, double ratio, double tolerance,
+                                  std::string& description) {
+  const Choice choice = choose(body, symmetric, which, ratio, tolerance);
+  description = name(choice, symmetric);
+  if (choice.solver == ImplicitSolver::cg) {
+    return [&body, stiffness, tolerance](const Eigen::VectorXd& shift) {
+      return by_iterations(body, stiffness, shift, tolerance);
+    };
+  }
+  return [&body, symmetric](const Eigen::VectorXd& shift) { return by_factor(body, symmetric, shift); };
+}
+
+template <int Dim>
+std::string describe_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which, double ratio,
+                                    double tolerance) {
+  return name(choose(body, symmetric, which, ratio, tolerance), symmetric);
+}
+
+#define PERIMODE_SHIFTED(D)                                                                                  \
+  template ShiftedSolver make_shifted_solver<D>(const Body<D>&, const LinearOperator&, bool, ImplicitSolver, \
+                                                double, double, std::string&);                               \
+  template std::string describe_shifted_solver<D>(const Body<D>&, bool, ImplicitSolver, double, double)
+PERIMODE_SHIFTED(1);
+PERIMODE_SHIFTED(2);
+PERIMODE_SHIFTED(3);
+#undef PERIMODE_SHIFTED
+
+}  // namespace perimode
