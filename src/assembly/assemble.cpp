@@ -13,18 +13,6 @@ using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::Ro
 template <int Dim>
 constexpr int block_size = Dim * Dim;
 
-/// The particle whose unknowns a bond partner's displacement depends on, or -1 for none.
-template <int Dim>
-Index followed(const Body<Dim>& body, Index partner) {
-  const Index n = body.count();
-  if (partner < n) return partner;
-  const std::size_t g = static_cast<std::size_t>(partner - n);
-  for (int a = 0; a < Dim; ++a) {
-    if (body.boundary.coefficient[g * Dim + a] != 0.0) return body.boundary.image[g];
-  }
-  return -1;
-}
-
 /// Rows whose partners are all particles at their own place, so that slots ascend with columns.
 template <int Dim>
 bool plain_row(const GridBonds<Dim>& bonds, const Particles<Dim>& particles, Index i) {
@@ -45,8 +33,12 @@ template <int Dim>
 void row_columns(const Body<Dim>& body, Index i, std::vector<Index>& columns) {
   columns.assign(1, i);
   for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-    const Index j = followed(body, end.neighbour);
-    if (j >= 0) columns.push_back(j);
+    if (end.neighbour < body.count()) {
+      columns.push_back(end.neighbour);
+    } else {
+      for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - body.count()),
+                     [&](Index j, const double*) { columns.push_back(j); });
+    }
   });
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
@@ -118,14 +110,14 @@ void fill_row(const Body<Dim>& body, BlockCsr& m, Index i) {
       add_outer<Dim>(block(end.neighbour), -k, e);
       return;
     }
-    const Index j = followed(body, end.neighbour);
-    if (j < 0) return;
-    double* target = block(j);
-    const double* coefficient =
-        body.boundary.coefficient.data() + static_cast<std::size_t>(end.neighbour - n) * Dim;
-    for (int a = 0; a < Dim; ++a) {
-      for (int b = 0; b < Dim; ++b) target[a * Dim + b] -= k * (e[a] * e[b]) * coefficient[b];
-    }
+    for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - n),
+                   [&](Index j, const double* coefficient) {
+                     double* target = block(j);
+                     for (int a = 0; a < Dim; ++a) {
+                       for (int b = 0; b < Dim; ++b)
+                         target[a * Dim + b] -= k * (e[a] * e[b]) * coefficient[b];
+                     }
+                   });
   });
 }
 
@@ -318,15 +310,13 @@ Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displa
           energy.row(i).array() += 0.25 * k * stretch.array().square();  // the other end adds the other half
           return;
         }
-        const std::size_t g = static_cast<std::size_t>(end.neighbour - n);
-        const double* coefficient = body.boundary.coefficient.data() + g * Dim;
-        const Index image = body.boundary.image[g] * Dim;
         own.setZero();
-        stretch.setZero();
-        for (int a = 0; a < Dim; ++a) {
-          own += e[a] * u.row(i * Dim + a);
-          stretch += e[a] * (u.row(i * Dim + a) - coefficient[a] * u.row(image + a));
-        }
+        for (int a = 0; a < Dim; ++a) own += e[a] * u.row(i * Dim + a);
+        stretch = own;
+        for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - n),
+                       [&](Index j, const double* coefficient) {
+                         for (int a = 0; a < Dim; ++a) stretch -= e[a] * coefficient[a] * u.row(j * Dim + a);
+                       });
         energy.row(i).array() += 0.5 * k * own.array() * stretch.array();
       });
     }

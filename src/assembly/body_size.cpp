@@ -37,7 +37,8 @@ double body_bytes(const Body<Dim>& body) {
   const auto& b = body.boundary;
   double bytes = bytes_of(p.position) + bytes_of(p.volume) + bytes_of(p.block) + bytes_of(p.cell) +
                  bytes_of(b.free_number) + bytes_of(b.given) + bytes_of(b.image) + bytes_of(b.coefficient) +
-                 bytes_of(b.value) + bytes_of(body.constants.factor) + bytes_of(body.constants.kernel_of_end);
+                 bytes_of(b.value) + bytes_of(b.given_time) + bytes_of(b.value_time) +
+                 bytes_of(body.constants.factor) + bytes_of(body.constants.kernel_of_end);
   if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) {
     return bytes + bytes_of(grid->occupant) + bytes_of(grid->home) + bytes_of(grid->ghosts) +
            bytes_of(grid->alive);

@@ -117,7 +117,7 @@ void expand(const BoundaryMap<Dim>& boundary, const double* x, std::vector<doubl
   for (std::size_t g = 0; g < boundary.image.size(); ++g) {
     for (int a = 0; a < Dim; ++a)
       u[dofs + g * Dim + a] =
-          boundary.coefficient[g * Dim + a] * u[static_cast<std::size_t>(boundary.image[g]) * Dim + a];
+          followed(boundary, g, a, [&u](Index i, int b) { return u[static_cast<std::size_t>(i) * Dim + b]; });
   }
 }
 

@@ -271,7 +271,9 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
     calibrate(body.constants, body, blocks, true, model.material.where);
   }
   sink.report("boundary");
-  body.boundary = make_boundary_map(body.particles, body.bonds, model.boundary);
+  body.boundary = make_boundary_map<Dim>(
+      body.particles, body.bonds, model.boundary,
+      [&body](Index i, const BondEnd<Dim>& end) { return bond_stiffness(body, i, end); });
   return body;
 }
 

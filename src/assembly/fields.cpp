@@ -54,8 +54,9 @@ std::vector<bool> mirrored_ghosts(const Body<Dim>& body) {
       if (a == 0) sign = c;
       if (c != sign || (c != 1.0 && c != -1.0)) mirrored[g] = false;
     }
-    // Surface nodes: the ghosts of one face follow one particle and have no pairs.
-    if (body.boundary.image[g] != grid->ghosts[g].image) return std::vector<bool>(mirrored.size(), false);
+    // Surface nodes: the ghosts of one face follow the same particles and have no pairs.
+    if (body.boundary.image[g] != grid->ghosts[g].image || !body.boundary.more_start.empty())
+      return std::vector<bool>(mirrored.size(), false);
   }
   return mirrored;
 }

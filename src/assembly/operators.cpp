@@ -58,13 +58,11 @@ template <int Dim>
 Offset columns_of(const Body<Dim>& body, Index i) {
   std::vector<Index> column = {i};
   for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-    const auto ghost = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
     if (end.neighbour < body.count()) {
       column.push_back(end.neighbour);
-    } else if (std::any_of(body.boundary.coefficient.begin() + ghost * Dim,
-                           body.boundary.coefficient.begin() + (ghost + 1) * Dim,
-                           [](double c) { return c != 0.0; })) {
-      column.push_back(body.boundary.image[ghost]);
+    } else {
+      for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - body.count()),
+                     [&](Index j, const double*) { column.push_back(j); });
     }
   });
   std::sort(column.begin(), column.end());
@@ -188,14 +186,15 @@ std::vector<double> diagonal_blocks(const Body<Dim>& body) {
     for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
       const double k = bond_stiffness(body, i, end);
       const Point<Dim> e = end.xi / end.length;
-      const bool own =
-          end.neighbour >= n && body.boundary.image[static_cast<std::size_t>(end.neighbour - n)] == i;
-      const double* coefficient =
-          own ? body.boundary.coefficient.data() + static_cast<std::size_t>(end.neighbour - n) * Dim
-              : nullptr;
+      Point<Dim> share = Point<Dim>::Ones();
+      if (end.neighbour >= n) {
+        for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - n),
+                       [&](Index j, const double* coefficient) {
+                         if (j == i) share -= Eigen::Map<const Point<Dim>>(coefficient);
+                       });
+      }
       for (int a = 0; a < Dim; ++a) {
-        for (int b = 0; b < Dim; ++b)
-          block[a * Dim + b] += k * e[a] * e[b] * (own ? 1.0 - coefficient[b] : 1.0);
+        for (int b = 0; b < Dim; ++b) block[a * Dim + b] += k * e[a] * e[b] * share[b];
       }
     });
   }
@@ -219,14 +218,18 @@ double stiffness_bound(const Body<Dim>& body) {
     for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
       const double k = bond_stiffness(body, i, end);
       const Point<Dim> e = end.xi / end.length;
-      const bool ghost = end.neighbour >= n;
-      const auto g = static_cast<std::size_t>(ghost ? end.neighbour - n : 0);
-      const Index j = ghost ? body.boundary.image[g] : end.neighbour;
-      if (j == i) return;
-      for (int b = 0; b < Dim; ++b) {
-        if (number[static_cast<std::size_t>(j) * Dim + b] < 0) continue;
-        const double coefficient = ghost ? std::abs(body.boundary.coefficient[g * Dim + b]) : 1.0;
-        for (int a = 0; a < Dim; ++a) sum[a] += k * std::abs(e[a] * e[b]) * coefficient;
+      const auto add = [&](Index j, const double* coefficient) {
+        if (j == i) return;
+        for (int b = 0; b < Dim; ++b) {
+          if (number[static_cast<std::size_t>(j) * Dim + b] < 0) continue;
+          for (int a = 0; a < Dim; ++a) sum[a] += k * std::abs(e[a] * e[b]) * std::abs(coefficient[b]);
+        }
+      };
+      if (end.neighbour < n) {
+        const Point<Dim> ones = Point<Dim>::Ones();
+        add(end.neighbour, ones.data());
+      } else {
+        for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - n), add);
       }
     });
     for (int a = 0; a < Dim; ++a) {

@@ -34,8 +34,7 @@ void fill_layer(const Stencil<Dim>& s, Index layer, const double* x, double* to)
         for (Index t = 0; t < run.count; ++t) component[t] = value(run.first + t, a);
       } else {
         for (Index t = 0; t < run.count; ++t) {
-          const std::size_t g = static_cast<std::size_t>(run.first) + t;
-          component[t] = boundary.coefficient[g * Dim + a] * value(boundary.image[g], a);
+          component[t] = followed(boundary, static_cast<std::size_t>(run.first) + t, a, value);
         }
       }
     }

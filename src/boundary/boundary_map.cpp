@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "boundary/ghost_rule.hpp"
+#include "boundary/map_times.hpp"
+#include "boundary/surface_traction.hpp"
 
 namespace perimode {
 
@@ -34,28 +36,16 @@ void check_component(int component, const Where& where) {
   }
 }
 
-/// Number of a time function among those of the map; a new one is added.
-template <int Dim>
-int time_number(BoundaryMap<Dim>& map, const TimeFunction& function) {
-  const auto known =
-      std::find_if(map.time.begin(), map.time.end(), [&](const auto& f) { return same(f, function); });
-  const auto number = static_cast<int>(known - map.time.begin());
-  if (known == map.time.end()) map.time.push_back(function);
-  return number;
-}
-
-/// Sets entry k of a list of time numbers; the list stays empty while all are constant.
-void set_time(std::vector<int>& list, std::size_t size, std::size_t k, int number) {
-  if (list.empty() && number != 0) list.assign(size, 0);
-  if (!list.empty()) list[k] = number;
-}
-
 template <int Dim>
 void check_surface(const Wall& wall, const Where& where) {
   if (!wall.displacement.empty() && wall.displacement.size() != static_cast<std::size_t>(Dim)) {
     invalid_input({fmt::format("{} component{} of the surface's displacement", Dim, Dim == 1 ? "" : "s"),
                    fmt::format("{}", wall.displacement.size()), fmt::format("the body has dimension {}", Dim),
                    where});
+  }
+  if (wall.traction && Dim != 1) {
+    invalid_input({"a traction of surface nodes in 1D", fmt::format("dimension {}", Dim),
+                   "give the traction as a load on the outermost layer of the face", where});
   }
 }
 
@@ -155,7 +145,8 @@ std::array<Beyond, 2 * Dim> beyond_faces(const std::vector<BoundaryCondition>& c
 
 template <int Dim>
 BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<Dim>& bonds,
-                                   const std::vector<BoundaryCondition>& conditions) {
+                                   const std::vector<BoundaryCondition>& conditions,
+                                   const BondStiffness<Dim>& stiffness) {
   BoundaryMap<Dim> map;
   const auto dofs = static_cast<std::size_t>(particles.count()) * Dim;
   map.given.assign(dofs, 0.0);
@@ -193,6 +184,7 @@ BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<
 
   if (const auto* grid = std::get_if<GridBonds<Dim>>(&bonds))
     add_ghosts(map, *particles.grid, *grid, conditions);
+  if constexpr (Dim == 1) add_tractions(map, particles, bonds, conditions, stiffness);
   return map;
 }
 
@@ -204,39 +196,42 @@ BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map) {
   m.t = {particle_dofs + ghosts * Dim, map.free, {0}, {}, {}};
   m.r = {map.free, particle_dofs + ghosts * Dim, {0}, {}, {}};
   m.g = map.given;
-  const auto add_row = [&](Index free, double coefficient) {
-    if (free >= 0 && coefficient != 0.0) {
-      m.t.column.push_back(free);
-      m.t.value.push_back(coefficient);
-    }
-    m.t.row_start.push_back(static_cast<Offset>(m.t.column.size()));
+  const auto add = [&](Index free, double coefficient) {
+    if (free < 0 || coefficient == 0.0) return;
+    m.t.column.push_back(free);
+    m.t.value.push_back(coefficient);
   };
+  const auto end_row = [&] { m.t.row_start.push_back(static_cast<Offset>(m.t.column.size())); };
   for (Index d = 0; d < particle_dofs; ++d) {
-    add_row(map.free_number[d], 1.0);
+    add(map.free_number[d], 1.0);
+    end_row();
     if (map.free_number[d] < 0) continue;
     m.r.column.push_back(d);
     m.r.value.push_back(1.0);
     m.r.row_start.push_back(static_cast<Offset>(m.r.column.size()));
   }
-  for (Index g = 0; g < ghosts; ++g) {
+  for (std::size_t g = 0; g < map.image.size(); ++g) {
     for (int c = 0; c < Dim; ++c) {
-      const Index dof = map.image[g] * Dim + c;
-      const double coefficient = map.coefficient[static_cast<std::size_t>(g) * Dim + c];
-      add_row(map.free_number[dof], coefficient);
-      m.g.push_back(map.value[static_cast<std::size_t>(g) * Dim + c] + coefficient * map.given[dof]);
+      double given = map.value[g * Dim + c];
+      for_each_image(map, g, [&](Index j, const double* coefficient) {
+        add(map.free_number[j * Dim + c], coefficient[c]);
+        given += coefficient[c] * map.given[j * Dim + c];
+      });
+      end_row();
+      m.g.push_back(given);
     }
   }
   return m;
 }
 
-#define PERIMODE_BOUNDARY(D)                                                                \
-  template struct BoundaryMap<D>;                                                           \
-  template BoundaryMap<D> with_only<D>(const BoundaryMap<D>&, int);                         \
-  template BoundaryMap<D> at_time<D>(const BoundaryMap<D>&, double);                        \
-  template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&, \
-                                                     const std::array<bool, 3>&);           \
-  template BoundaryMap<D> make_boundary_map<D>(const Particles<D>&, const Bonds<D>&,        \
-                                               const std::vector<BoundaryCondition>&);      \
+#define PERIMODE_BOUNDARY(D)                                                                                 \
+  template struct BoundaryMap<D>;                                                                            \
+  template BoundaryMap<D> with_only<D>(const BoundaryMap<D>&, int);                                          \
+  template BoundaryMap<D> at_time<D>(const BoundaryMap<D>&, double);                                         \
+  template std::array<Beyond, 2 * D> beyond_faces<D>(const std::vector<BoundaryCondition>&,                  \
+                                                     const std::array<bool, 3>&);                            \
+  template BoundaryMap<D> make_boundary_map<D>(                                                              \
+      const Particles<D>&, const Bonds<D>&, const std::vector<BoundaryCondition>&, const BondStiffness<D>&); \
   template BoundaryMatrices boundary_matrices<D>(const BoundaryMap<D>&)
 PERIMODE_BOUNDARY(1);
 PERIMODE_BOUNDARY(2);

@@ -48,6 +48,14 @@ inline void add_surface_nodes(Model& m, int axis, bool upper,
   m.boundary.push_back({std::move(wall), {}});
 }
 
+/// Surface nodes of a bar with a given traction.
+inline void add_surface_traction(Model& m, bool upper, double traction, const TimeFunction& time = {}) {
+  Wall wall{{0, upper}, WallType::surface_nodes};
+  wall.traction = traction;
+  wall.time = time;
+  m.boundary.push_back({std::move(wall), {}});
+}
+
 /// The formulas of u = h x, one per component.
 template <int Dim>
 std::vector<std::string> linear_field(const Eigen::Matrix<double, Dim, Dim>& h) {

@@ -176,6 +176,47 @@ TEST(Bar, IsLinearAndAsStiffAsItsLattice) {
   }
 }
 
+/// A bar held by surface nodes at x- and pulled by a traction of those at x+: u = (sigma / E') x to the last
+/// particle, E'/E = 1 for the constant kernel whose last bond counts half, and the force is sigma A.
+TEST(Bar, IsLinearUnderASurfaceTraction) {
+  for (int m = 1; m <= 6; ++m) {
+    for (Kernel kernel : kernels) {
+      if (m == 1 && kernel == Kernel::conical) continue;  // its only bond has c(delta) = 0
+      Model model = box_model({30}, 0.05, m);
+      model.area = 0.3;
+      model.material.youngs_modulus = 7.0;
+      model.material.micromodulus.kernel = kernel;
+      model.volume_correction = VolumeCorrection::linear;
+      test::add_surface_nodes(model, 0, false);
+      test::add_surface_traction(model, true, 0.014);
+      const auto body = build_body<1>(model);
+      double modulus = 0.0;  // E' = 1 / (2 V) sum_b k_b xi^2 of a whole family
+      for_each_bond(body.bonds, 15, Which::alive, [&](const BondEnd<1>& end) {
+        modulus +=
+            bond_stiffness(body, 15, end) * end.length * end.length / (2.0 * body.particles.volume[15]);
+      });
+      if (kernel == Kernel::constant) {
+        EXPECT_NEAR(modulus, 7.0, 1e-13 * 7.0);
+      }
+      StaticOptions options;
+      options.tolerance = 1e-12;
+      const StaticResult r = solve_static(body, model.boundary, options);
+      ASSERT_EQ(r.status, StaticStatus::converged) << r.message;
+      const double strain = 0.014 / modulus;
+      for (int i = 0; i < 30; ++i)
+        EXPECT_NEAR(r.displacement[i], strain * 0.05 * (i + 0.5), 1e-12 * strain * 1.5);
+      EXPECT_NEAR(r.reactions[0].force[0], -0.014 * 0.3, 1e-11 * 0.014 * 0.3);
+      EXPECT_NEAR(r.reactions[1].force[0], 0.014 * 0.3, 1e-11 * 0.014 * 0.3);
+    }
+  }
+}
+
+TEST(Bar, BetweenTwoSurfaceTractionsIsNotHeld) {
+  Model model = box_model({30}, 0.05, 3.0);
+  for (bool upper : {false, true}) test::add_surface_traction(model, upper, 1.0);
+  EXPECT_THROW((void)solve_static(build_body<1>(model), model.boundary, StaticOptions{}), Error);
+}
+
 /// A strip between mirror walls at x-, y- and y+, and a given uniform strain in the layers at x+.
 TEST(Strip, IsLinearAndItsReactionIsTheLatticeStressTimesItsSection) {
   for (Kernel kernel : kernels) {

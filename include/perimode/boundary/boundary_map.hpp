@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "perimode/bonds/bonds.hpp"
@@ -23,6 +24,12 @@ struct BoundaryMap {
   std::vector<double> value;        ///< Dim per ghost, m
   Index free = 0;                   ///< number of free dofs
 
+  /// Ghosts that follow further particles (surface nodes of a given traction): their entries
+  /// more_start[ghost] .. more_start[ghost + 1]. All empty where there are none.
+  std::vector<Offset> more_start = {};
+  std::vector<Index> more_image = {};
+  std::vector<double> more_coefficient = {};  ///< Dim per entry
+
   /// How given values and those of ghosts vary in time; the first one is constant. A static or modal analysis
   /// takes all of them in full.
   std::vector<TimeFunction> time = {TimeFunction{}};
@@ -42,6 +49,31 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] BoundaryMap<Dim> at_time(const BoundaryMap<Dim>& map, double t);
 
+/// Component a of the linear part of a ghost's displacement, value(particle, a) being those of particles.
+template <int Dim, class Value>
+[[nodiscard]] inline double followed(const BoundaryMap<Dim>& map, std::size_t ghost, int a, Value&& value) {
+  double u = map.coefficient[ghost * Dim + a] * value(map.image[ghost], a);
+  if (map.more_start.empty()) return u;
+  for (Offset e = map.more_start[ghost]; e < map.more_start[ghost + 1]; ++e)
+    u += map.more_coefficient[static_cast<std::size_t>(e) * Dim + a] * value(map.more_image[e], a);
+  return u;
+}
+
+/// Calls visit(particle, coefficients) for every particle that a ghost follows, those of Dim coefficients 0
+/// left out; no particle comes twice.
+template <int Dim, class Visit>
+inline void for_each_image(const BoundaryMap<Dim>& map, std::size_t ghost, Visit&& visit) {
+  const auto take = [&](Index particle, const double* coefficient) {
+    for (int a = 0; a < Dim; ++a) {
+      if (coefficient[a] != 0.0) return visit(particle, coefficient);
+    }
+  };
+  take(map.image[ghost], map.coefficient.data() + ghost * Dim);
+  if (map.more_start.empty()) return;
+  for (Offset e = map.more_start[ghost]; e < map.more_start[ghost + 1]; ++e)
+    take(map.more_image[e], map.more_coefficient.data() + static_cast<std::size_t>(e) * Dim);
+}
+
 /// Displacement of a bond partner, particle or ghost, for displacements `u` of all particle dofs; with
 /// `given` false, ghosts follow by the linear part of the map alone.
 template <int Dim>
@@ -54,8 +86,9 @@ template <int Dim>
       continue;
     }
     const auto g = static_cast<std::size_t>(partner - particles);
-    result[a] = map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a] +
-                (given ? map.value[g * Dim + a] : 0.0);
+    result[a] =
+        followed(map, g, a, [u](Index i, int b) { return u[static_cast<std::size_t>(i) * Dim + b]; }) +
+        (given ? map.value[g * Dim + a] : 0.0);
   }
   return result;
 }
@@ -67,6 +100,10 @@ struct BoundaryMatrices {
   std::vector<double> g;
 };
 
+/// Stiffness of a bond seen from a particle, N/m (body.hpp).
+template <int Dim>
+using BondStiffness = std::function<double(Index, const BondEnd<Dim>&)>;
+
 /// What lies beyond each face of a grid, for make_grid_bonds. Throws invalid_input: two
 /// conditions on one face, a wall on a periodic axis or on an axis the body does not have.
 template <int Dim>
@@ -75,11 +112,15 @@ template <int Dim>
 
 /// Numbers the free dofs and says what ghosts do. A fixed dof stays fixed whatever comes later; among
 /// prescribed values the last one holds, and so does the last wall where faces of surface nodes meet.
-/// Throws invalid_input: a region that holds no particle, a component the body does not have, no particle
-/// behind an edge of surface nodes. Cost O(particles + ghosts).
+/// Surface nodes of a given traction take the stiffness of the bonds that are alive now; those across the
+/// surface are not to break later. Throws invalid_input: a region that holds no particle, a component the
+/// body does not have, no particle behind an edge of surface nodes, a traction outside 1D, of a body shorter
+/// than the reach of its bonds or without bonds across its surface. Cost O(particles + ghosts); with a
+/// traction O(bonds).
 template <int Dim>
 [[nodiscard]] BoundaryMap<Dim> make_boundary_map(const Particles<Dim>& particles, const Bonds<Dim>& bonds,
-                                                 const std::vector<BoundaryCondition>& conditions);
+                                                 const std::vector<BoundaryCondition>& conditions,
+                                                 const BondStiffness<Dim>& stiffness);
 
 template <int Dim>
 [[nodiscard]] BoundaryMatrices boundary_matrices(const BoundaryMap<Dim>& map);

@@ -31,10 +31,11 @@ Eigen::VectorXd sizes(const Body<Dim>& body, const Eigen::VectorXd& x) {
       for (int a = 0; a < Dim; ++a) {
         const std::size_t own = static_cast<std::size_t>(i) * Dim + a;
         const auto g = static_cast<std::size_t>(std::max(end.neighbour - body.count(), 0));
-        const double other =
-            end.neighbour < body.count()
-                ? u[static_cast<std::size_t>(end.neighbour) * Dim + a]
-                : map.coefficient[g * Dim + a] * u[static_cast<std::size_t>(map.image[g]) * Dim + a];
+        const double other = end.neighbour < body.count()
+                                 ? u[static_cast<std::size_t>(end.neighbour) * Dim + a]
+                                 : followed(map, g, a, [&u](Index j, int b) {
+                                     return u[static_cast<std::size_t>(j) * Dim + b];
+                                   });
         stretch += n[a] * ((map.free_number[own] < 0 ? 0.0 : std::abs(u[own])) + std::abs(other));
       }
       for (int a = 0; a < Dim; ++a) {

@@ -126,6 +126,8 @@ TEST(Operators, DiagonalBlocksAndTheBoundAreThoseOfTheMatrix) {
     expect_blocks_and_bound<1>(bar);
     expect_blocks_and_bound<2>(plate);
     expect_blocks_and_bound<3>(block);
+    test::add_surface_traction(bar, false, 1.0);
+    expect_blocks_and_bound<1>(bar);
   }
 }
 

@@ -116,6 +116,10 @@ TEST(Operators, EveryFormEqualsTheMatrixAtSurfaceNodes) {
       expect_any(bar);
     }
   }
+  Model pulled = box_model({40}, 0.5, 3.0);
+  test::add_surface_traction(pulled, false, 2.0);
+  fix_face(pulled, 0, true, 1, {0});
+  expect_any(pulled);
   for (const auto& cells : {std::vector{23, 9}, std::vector{6, 9, 7}}) {
     Model m = box_model(cells, 0.5, cells.size() == 3 ? 2.0 : 3.0);
     add_walls(m, 0, WallType::surface_nodes);

@@ -90,6 +90,9 @@ TEST(Stiffness, EqualsTheSumOfRankOneMatricesForEveryWall) {
     add_wall(bar, 0, false, type);
     test::add_surface_nodes(bar, 0, true);
     expect_equals_bonds<1>(bar);
+    bar.boundary.clear();
+    test::add_surface_traction(bar, false, 1.0);
+    expect_equals_bonds<1>(bar);
   }
 }
 

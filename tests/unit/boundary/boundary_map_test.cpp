@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "perimode/assembly/body.hpp"
+#include "perimode/assembly/operators.hpp"
 #include "support/models.hpp"
 
 namespace perimode {
@@ -161,6 +162,66 @@ TEST(BoundaryMap, TheLastOfTwoSurfacesHoldsAtTheirEdge) {
   }
 }
 
+/// Force through the face `side` of a bar whose particles move as u: outward tension is positive.
+double force_through(const Body<1>& body, const Eigen::VectorXd& u, int side) {
+  const auto& ghosts = std::get<GridBonds<1>>(body.bonds).ghosts;
+  double force = 0.0;
+  for (Index i = 0; i < body.count(); ++i) {
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<1>& end) {
+      if (end.neighbour < body.count() || ghosts[end.neighbour - body.count()].crossings[side] == 0) return;
+      const double other = partner_displacement(body.boundary, u.data(), end.neighbour, body.count())[0];
+      force += bond_stiffness(body, i, end) * (other - u[i]);
+    });
+  }
+  return side == 1 ? force : -force;
+}
+
+TEST(BoundaryMap, ASurfaceTractionIsTheForceThroughTheSurfaceWhateverTheBodyDoes) {
+  for (int m : {1, 2, 3, 7}) {
+    for (Calibration calibration : {Calibration::continuum, Calibration::discrete}) {
+      Model bar = box_model({12}, 0.1, m);
+      bar.area = 0.3;
+      bar.material.micromodulus.kernel = Kernel::gaussian;
+      bar.calibration = calibration;
+      bar.volume_correction = VolumeCorrection::linear;
+      test::add_surface_traction(bar, false, -0.25);
+      test::add_surface_traction(bar, true, 0.5, {.kind = TimeFunction::Kind::ramp, .a = 4.0});
+      const auto body = build_body<1>(bar);
+      const Eigen::VectorXd u = Eigen::VectorXd::NullaryExpr(12, [](Eigen::Index i) {
+        return std::sin(3.0 * static_cast<double>(i)) + 0.1 * static_cast<double>(i);
+      });
+      const double round_off = 1e-14 * stiffness_bound(body) * u.cwiseAbs().maxCoeff();
+      EXPECT_NEAR(force_through(body, u, 0), -0.25 * 0.3, round_off);
+      EXPECT_NEAR(force_through(body, u, 1), 0.5 * 0.3, round_off);
+      Body<1> later = body;
+      later.boundary = at_time(body.boundary, 1.0);
+      EXPECT_NEAR(force_through(later, u, 0), -0.25 * 0.3, round_off);
+      EXPECT_NEAR(force_through(later, u, 1), 0.5 * 0.3 / 4.0, round_off);
+      // Surfaces without a given displacement hold nothing: a translation stays one beyond them.
+      const Eigen::VectorXd ones = Eigen::VectorXd::Ones(12);
+      for (Index g = 0; g < static_cast<Index>(body.boundary.image.size()); ++g)
+        EXPECT_NEAR(partner_displacement(body.boundary, ones.data(), 12 + g, 12, false)[0], 1.0, 1e-13);
+    }
+  }
+}
+
+TEST(BoundaryMap, MatricesFollowSeveralParticles) {
+  Model bar = box_model({8}, 0.1, 3.0);
+  fix_face(bar, 0, false, 1, {0});
+  bar.boundary.push_back({Prescribe{{{0, 0.5}}, Region{FaceRegion{{0, true}, 2, 0.0}, {}}}, {}});
+  test::add_surface_traction(bar, true, 2.0);
+  const auto body = build_body<1>(bar);
+  const auto matrices = boundary_matrices(body.boundary);
+  std::vector<double> q(body.boundary.free);
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] = 1.0 + 0.1 * static_cast<double>(k * k);
+  std::vector<double> all(matrices.t.rows);
+  multiply(matrices.t, q, all);
+  for (std::size_t d = 0; d < all.size(); ++d) all[d] += matrices.g[d];
+  const auto u = body.boundary.expand(q.data());
+  for (Index p = 0; p < static_cast<Index>(all.size()); ++p)
+    EXPECT_NEAR(all[p], partner_displacement(body.boundary, u.data(), p, 8)[0], 1e-13);
+}
+
 TEST(BoundaryMap, TimeFunctionsAreKeptOncePerFunction) {
   const TimeFunction ramp{.kind = TimeFunction::Kind::ramp, .a = 2.0};
   const TimeFunction step{.kind = TimeFunction::Kind::step, .a = 1.0};
@@ -252,6 +313,14 @@ TEST(BoundaryMap, ContradictionsAreErrors) {
   EXPECT_NO_THROW((void)build_body<2>(thin));
   add_wall(thin, 0, true, WallType::surface_nodes);
   EXPECT_THROW((void)build_body<2>(thin), Error);
+
+  Model plate_traction = box_model({8, 8}, 1.0, 2.0);
+  test::add_surface_traction(plate_traction, true, 1.0);
+  EXPECT_THROW((void)build_body<2>(plate_traction), Error);
+
+  Model short_bar = box_model({3}, 1.0, 4.0);
+  test::add_surface_traction(short_bar, true, 1.0);
+  EXPECT_THROW((void)build_body<1>(short_bar), Error);
 
   Model components = box_model({8, 8}, 1.0, 2.0);
   test::add_surface_nodes(components, 0, true, {"0", "0", "0"});
