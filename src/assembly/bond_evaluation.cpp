@@ -207,7 +207,7 @@ class GridEvaluation final : public PieceByPiece<Dim> {
           to = value(occupant, a);
         } else {
           const std::size_t g = static_cast<std::size_t>(occupant - n);
-          to = map.coefficient[g * Dim + a] * value(map.image[g], a) + given.ghost[g * Dim + a];
+          to = followed(map, g, a, value) + given.ghost[g * Dim + a];
         }
       }
     }

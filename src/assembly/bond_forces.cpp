@@ -138,14 +138,16 @@ struct BondForces<Dim>::Implementation {
   /// Displacement of a particle or ghost at q.
   [[nodiscard]] Point<Dim> displacement(const double* q, Index partner) const {
     const BoundaryMap<Dim>& map = body->boundary;
+    const auto value = [&](Index particle, int a) {
+      const std::size_t d = static_cast<std::size_t>(particle) * Dim + static_cast<std::size_t>(a);
+      return map.free_number[d] >= 0 ? q[map.free_number[d]] : given.dof[d];
+    };
     const bool ghost = partner >= body->count();
     const auto g = static_cast<std::size_t>(ghost ? partner - body->count() : 0);
-    const auto first = static_cast<std::size_t>(ghost ? map.image[g] : partner) * Dim;
     Point<Dim> u;
-    for (std::size_t a = 0; a < Dim; ++a) {
-      const Index row = map.free_number[first + a];
-      u[a] = row >= 0 ? q[row] : given.dof[first + a];
-      if (ghost) u[a] = map.coefficient[g * Dim + a] * u[a] + given.ghost[g * Dim + a];
+    for (int a = 0; a < Dim; ++a) {
+      u[a] = ghost ? followed(map, g, a, value) + given.ghost[g * Dim + static_cast<std::size_t>(a)]
+                   : value(partner, a);
     }
     return u;
   }
