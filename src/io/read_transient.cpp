@@ -87,7 +87,7 @@ void read_times(const Section& section, TransientOptions& options) {
   options.end = end.number({"s", "1.0e-3"});
   if (const auto dt = section.find("dt"); dt && dt->node().text != "auto") {
     options.dt = dt->number({"s (or auto)", "1.0e-7"});
-    if (options.dt > options.end) {
+    if (options.dt > options.end * (1.0 + 1e-9)) {
       dt->complain(fmt::format("a step of at most {} s, the end", options.end),
                    "give a shorter step, or auto");
     }
