@@ -9,7 +9,7 @@
 namespace perimode::case_file {
 
 std::filesystem::path InputFiles::add(const Cursor& cursor, const char* example) {
-  const std::filesystem::path file = directory / cursor.text(example);
+  std::filesystem::path file = directory / cursor.text(example);
   std::error_code code;
   if (!std::filesystem::is_regular_file(file, code)) {
     cursor.complain("an existing file",
