@@ -155,7 +155,7 @@ analysis:
       edge: { velocity_at: [0.0, 0.1] }
       gauge: { strain_between: [[0.29, 0.1], [0.31, 0.1]] }
     history_every: 1            # steps
-    fields_every: 50            # steps | fields_at: [4.0e-5, 8.0e-5] in s
+    fields_every: 20            # steps | fields_at: [4.0e-5, 8.0e-5] in s
     # checkpoint_every: 1000    # steps; go on with: perimode transient this_file.yaml --resume
 
 output:

@@ -126,6 +126,8 @@ class Commands(ProgramTest):
         self.good("check", "mine.yaml")
         self.good("modal", "mine.yaml", "--set", "body.particles.grid.spacing=0.02")
         self.good("new", "modal", "mine.yaml", "--force")
+        self.good("new", "transient", "wave.yaml")
+        self.good("check", "wave.yaml")
 
     def test_check_predicts_and_writes_nothing(self):
         self.write("case.yaml", PLATE.replace("spacing: 0.1", "spacing: 0.02"))

@@ -19,7 +19,7 @@ Particles<2> six() { return grid_particles<2>(make_grid<2>({0, 0}, {3, 2}, 1.0, 
 
 /// A modes.exo of these particles with two modes, the values 1, 2, 3, ... and their negatives.
 std::filesystem::path modes_of(const Particles<2>& particles, const TemporaryFolder& folder) {
-  const auto file = folder.path() / "modes.exo";
+  auto file = folder.path() / "modes.exo";
   ExodusWriter writer(file, exodus_mesh(particles), {"frequency_hz"},
                       {"displacement_x", "displacement_y", "displacement_z"});
   std::vector<double> shape(static_cast<std::size_t>(particles.count()) * 2);
