@@ -3,16 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <span>
 
 namespace perimode {
 
-/// A text file being written through a buffer. Errors (full disk, permissions) throw
-/// Error(environment); close() must be called to learn of the last ones.
+/// A file being written through a buffer. Errors (full disk, permissions) throw Error(environment); close()
+/// must be called to learn of the last ones.
 class OutputFile {
  public:
   explicit OutputFile(const std::filesystem::path& file);
+  /// Goes on with a file that is there, after its first `bytes`; the rest is cut off. Throws invalid_input
+  /// for a shorter one.
+  OutputFile(const std::filesystem::path& file, std::int64_t bytes);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -22,6 +27,14 @@ class OutputFile {
   void flush_if_full() {
     if (buffer_.size() >= full) flush();
   }
+  /// What the buffer holds, then these bytes, past the buffer.
+  void write(std::span<const char> bytes);
+  /// Hands all to the system: other programs see it.
+  void show();
+  /// All of it on the disk.
+  void sync();
+  /// Written so far, the buffer included.
+  [[nodiscard]] std::int64_t bytes() const { return bytes_ + static_cast<std::int64_t>(buffer_.size()); }
   void close();
 
  private:
@@ -32,7 +45,11 @@ class OutputFile {
 
   std::filesystem::path file_;
   std::FILE* stream_;
+  std::int64_t bytes_ = 0;
   fmt::memory_buffer buffer_;
 };
+
+/// Makes the names in a folder last: renamed and new files survive a power cut. Throws Error(environment).
+void sync_folder(const std::filesystem::path& folder);
 
 }  // namespace perimode
