@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "io/output_file.hpp"
 #include "perimode/core/error.hpp"
 
 namespace perimode {
@@ -101,6 +102,22 @@ ExodusWriter::ExodusWriter(const std::filesystem::path& file, const ExodusMesh& 
   }
 }
 
+ExodusWriter::ExodusWriter(const std::filesystem::path& file, int steps) : file_(file), steps_(steps) {
+  ex_opts(EX_DEFAULT);
+  int word = sizeof(double);
+  int stored = 0;
+  float library = 0.0F;
+  id_ = ex_open(file.c_str(), EX_WRITE, &word, &stored, &library);
+  if (id_ < 0) check(id_, "open");
+  const std::int64_t there = ex_inquire_int(id_, EX_INQ_TIME);
+  if (there >= steps) return;
+  (void)ex_close(id_);
+  invalid_input({fmt::format("{} steps, as the checkpoint says", steps),
+                 fmt::format("{}", there),
+                 "start anew with --force",
+                 {file.string()}});
+}
+
 ExodusWriter::~ExodusWriter() {
   if (id_ >= 0) (void)ex_close(id_);
 }
@@ -166,6 +183,11 @@ void ExodusWriter::write(const ExodusStep& step) {
                      static_cast<std::int64_t>(step.nodal[v].size()), step.nodal[v].data()),
           "write a step to");
   }
+}
+
+void ExodusWriter::sync() {
+  check(ex_update(id_), "write");
+  sync_file(file_);
 }
 
 void ExodusWriter::close() {

@@ -20,6 +20,16 @@ namespace {
               Complaint{"to " + doing, reason, "check the free space and the permissions", {path.string()}});
 }
 
+void sync_path(const std::filesystem::path& path, int flags) {
+  const int descriptor = open(path.c_str(), flags | O_CLOEXEC);
+  if (descriptor < 0) fail_at(path, "open");
+  const int status = fsync(descriptor);
+  const int reason = errno;
+  (void)::close(descriptor);
+  errno = reason;
+  if (status != 0 && reason != EINVAL) fail_at(path, "sync");  // EINVAL: nothing there that can be synced
+}
+
 }  // namespace
 
 OutputFile::OutputFile(const std::filesystem::path& file)
@@ -77,15 +87,8 @@ void OutputFile::close() {
 
 void OutputFile::fail(const char* doing) const { fail_at(file_, fmt::format("{} the file", doing)); }
 
-void sync_folder(const std::filesystem::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) fail_at(folder, "open the folder");
-  const int status = fsync(descriptor);
-  const int reason = errno;
-  (void)::close(descriptor);
-  errno = reason;
-  // EINVAL: a file system that has nothing to sync for a folder
-  if (status != 0 && reason != EINVAL) fail_at(folder, "sync the folder");
-}
+void sync_file(const std::filesystem::path& file) { sync_path(file, O_WRONLY); }
+
+void sync_folder(const std::filesystem::path& folder) { sync_path(folder, O_RDONLY | O_DIRECTORY); }
 
 }  // namespace perimode

@@ -49,6 +49,9 @@ class OutputFile {
   fmt::memory_buffer buffer_;
 };
 
+/// What was written to a file, on the disk. Throws Error(environment).
+void sync_file(const std::filesystem::path& file);
+
 /// Makes the names in a folder last: renamed and new files survive a power cut. Throws Error(environment).
 void sync_folder(const std::filesystem::path& folder);
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/io/result_directory.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <utility>
 
 #include "perimode/core/error.hpp"
+#include "perimode/io/checkpoint.hpp"
 
 namespace perimode {
 
@@ -45,6 +49,41 @@ std::vector<fs::path> missing_parents(const fs::path& target) {
   return missing;
 }
 
+/// Whether a run may begin with the folder of an unfinished one as it is.
+void require_beginning(const fs::path& folder, bool force, Beginning beginning) {
+  const Where where{folder.string()};
+  if (fs::exists(folder) && !fs::is_directory(folder)) {
+    invalid_input(
+        {"a folder for the unfinished result", "a file of that name", "give another --output", where});
+  }
+  const bool there = has_checkpoint(folder);
+  if (beginning == Beginning::resumed && !there) {
+    invalid_input({"a checkpoint to go on from",
+                   fs::exists(folder) ? "a folder without one" : "no unfinished run",
+                   "start the run without --resume", where});
+  }
+  if (beginning == Beginning::new_run && there && !force) {
+    invalid_input({"no unfinished run of this result", "one with a checkpoint",
+                   "go on with --resume, or start anew with --force", where});
+  }
+}
+
+/// Descriptor of the folder, locked until it is closed or the program ends, however it ends. -1: not a file
+/// system that can lock.
+int locked(const fs::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0 || ::flock(descriptor, LOCK_EX | LOCK_NB) == 0) return descriptor;
+  const bool busy = errno == EWOULDBLOCK;
+  (void)::close(descriptor);
+  if (busy) {
+    invalid_input({"a folder no other run is at work in",
+                   "one that is in use",
+                   "wait for that run, or give another --output",
+                   {folder.string()}});
+  }
+  return -1;
+}
+
 }  // namespace
 
 void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
@@ -56,28 +95,55 @@ void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
   }
 }
 
-ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
+void ResultDirectory::set_target(const fs::path& target, bool force) {
   if (target.empty())
     invalid_input({"a folder for the result", "an empty name", "give for example out/plate", {}});
+  target_ = fs::weakly_canonical(fs::absolute(target));
+  if (!target_.has_filename()) target_ = target_.parent_path();
+  require_replaceable(target_, force);
+}
+
+ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
   try {
-    target_ = fs::weakly_canonical(fs::absolute(target));
-    if (!target_.has_filename()) target_ = target_.parent_path();
-    require_replaceable(target_, force);
+    set_target(target, force);
     unfinished_.parents = missing_parents(target_);
     fs::create_directories(target_.parent_path());
-    const fs::path temporary = fmt::format("{}.part-{}", target_.string(), ::getpid());
-    fs::remove_all(temporary);  // left by a killed run that had this process id
-    fs::create_directory(temporary);
-    unfinished_.temporary = temporary;
+    temporary_ = fmt::format("{}.part-{}", target_.string(), ::getpid());
+    fs::remove_all(temporary_);  // left by a killed run that had this process id
+    fs::create_directory(temporary_);
+    unfinished_.temporary = temporary_;
   } catch (const fs::filesystem_error& error) {
     fail("to create the folder of the result", error);
   }
 }
 
-ResultDirectory::~ResultDirectory() { remove_unfinished(unfinished_); }
+ResultDirectory::ResultDirectory(const fs::path& target, bool force, Beginning beginning) {
+  try {
+    set_target(target, force);
+    temporary_ = target_.string() + ".unfinished";
+    require_beginning(temporary_, force, beginning);
+    const std::vector<fs::path> parents = missing_parents(target_);
+    fs::create_directories(temporary_);
+    lock_ = locked(temporary_);
+    if (beginning == Beginning::resumed) return;
+    for (const auto& entry : fs::directory_iterator(temporary_)) fs::remove_all(entry.path());
+    unfinished_ = {temporary_, parents};
+  } catch (const fs::filesystem_error& error) {
+    if (lock_ >= 0) (void)::close(lock_);
+    fail("to create the folder of the result", error);
+  }
+}
+
+ResultDirectory::~ResultDirectory() {
+  remove_unfinished(unfinished_);
+  if (lock_ >= 0) (void)::close(lock_);
+}
 
 ResultDirectory::ResultDirectory(ResultDirectory&& other) noexcept
-    : target_(std::move(other.target_)), unfinished_(std::exchange(other.unfinished_, {})) {}
+    : target_(std::move(other.target_)),
+      temporary_(std::exchange(other.temporary_, {})),
+      unfinished_(std::exchange(other.unfinished_, {})),
+      lock_(std::exchange(other.lock_, -1)) {}
 
 void ResultDirectory::commit() {
   const fs::path old = fmt::format("{}.old-{}", target_.string(), ::getpid());
@@ -88,12 +154,13 @@ void ResultDirectory::commit() {
       fs::rename(target_, old);
       moved_aside = true;
     }
-    fs::rename(unfinished_.temporary, target_);
+    fs::rename(temporary_, target_);
+    temporary_.clear();
     unfinished_ = {};
     fs::remove_all(old);
   } catch (const fs::filesystem_error& error) {
     std::error_code ignored;
-    if (moved_aside && !unfinished_.temporary.empty()) fs::rename(old, target_, ignored);
+    if (moved_aside && !temporary_.empty()) fs::rename(old, target_, ignored);
     fail("to put the result in its place", error);
   }
 }

@@ -41,6 +41,9 @@ class ExodusWriter {
  public:
   ExodusWriter(const std::filesystem::path& file, const ExodusMesh& mesh,
                const std::vector<std::string>& global_names, const std::vector<std::string>& nodal_names);
+  /// Goes on with a file this class has written, after its first `steps` steps; later ones are written over.
+  /// Throws invalid_input for a file that holds fewer.
+  ExodusWriter(const std::filesystem::path& file, int steps);
   ~ExodusWriter();
   ExodusWriter(ExodusWriter&& other) noexcept;
   ExodusWriter& operator=(ExodusWriter&&) = delete;
@@ -49,6 +52,8 @@ class ExodusWriter {
 
   /// Appends a step. @pre sizes agree with the names and the mesh.
   void write(const ExodusStep& step);
+  /// All of it on the disk.
+  void sync();
   /// Ends the file; to be called, since the destructor cannot report a full disk.
   void close();
 
