@@ -17,7 +17,9 @@ struct Arguments {
   std::vector<std::string> set;                      ///< key=value
   std::optional<std::filesystem::path> output;       ///< instead of output.directory
   bool force = false;                                ///< replace an earlier result
+  bool resume = false;                               ///< go on from the last checkpoint
   bool matrices = false;                             ///< also write K.mtx and M.mtx
+  std::string command_line;                          ///< as typed, to be shown
   std::optional<std::filesystem::path> template_to;  ///< `new`: a file instead of standard output
 };
 
@@ -34,10 +36,11 @@ int with_dimension(int dimension, Run&& run) {
   }
 }
 
-/// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal. Bad input and a lacking
-/// environment are thrown as Error.
+/// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal, 130 interrupted. Bad input
+/// and a lacking environment are thrown as Error.
 int run_modal(const Arguments& arguments, Console& console);
 int run_static(const Arguments& arguments, Console& console);
+int run_transient(const Arguments& arguments, Console& console);
 int run_check(const Arguments& arguments, Console& console);
 int run_new_modal(const Arguments& arguments, Console& console);
 int run_new_static(const Arguments& arguments, Console& console);

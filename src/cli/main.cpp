@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -12,6 +13,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -40,6 +42,8 @@ constexpr const char* examples = R"(Examples:
   perimode check plate.yaml                     read it, predict size, memory and solver
   perimode modal plate.yaml --threads 2         modes: table, modes.csv, modes.exo, summary.json
   perimode static plate.yaml                    displacements under loads: fields.exo, reactions.csv
+  perimode transient plate.yaml                 motion in time: history.csv, fields.exo
+  perimode transient plate.yaml --resume        go on with a run that was interrupted or killed
   perimode modal plate.yaml --set body.horizon.ratio=4 --output out/m4
 
 Exit codes: 0 done, 1 ran but did not reach its goal, 2 bad input, 3 environment, 130 interrupted.)";
@@ -84,6 +88,25 @@ std::string usage_error(const CLI::App& app, int argc, char** argv, std::string 
   return what + "; see perimode --help";
 }
 
+/// The command as it could be typed again.
+std::string command_line(int argc, char** argv) {
+  std::string text = "perimode";
+  for (int k = 1; k < argc; ++k) {
+    std::string word = argv[k];
+    const auto plain = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+             std::string_view("-_./=:,+@%").find(c) != std::string_view::npos;
+    };
+    if (word.empty() || !std::all_of(word.begin(), word.end(), plain)) {
+      for (std::size_t at = 0; (at = word.find('\'', at)) != std::string::npos; at += 4)
+        word.replace(at, 1, "'\\''");
+      word = "'" + word + "'";
+    }
+    text += " " + word;
+  }
+  return text;
+}
+
 int exit_code(perimode::ErrorKind kind) {
   switch (kind) {
     case perimode::ErrorKind::invalid_input:
@@ -120,13 +143,15 @@ int main(int argc, char** argv) {
   perimode::cli::prepare_process(argv);
   keep_freed_memory();
   perimode::cli::watch_for_interrupts();
-  CLI::App app{"Perimode: vibration modes and statics of bond-based peridynamic bodies", "perimode"};
+  CLI::App app{"Perimode: vibration modes, statics and motion in time of bond-based peridynamic bodies",
+               "perimode"};
   app.footer(examples);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
   app.fallthrough();
 
   Arguments arguments;
+  arguments.command_line = command_line(argc, argv);
   int threads = 0;
   bool quiet = false;
   std::function<int(Console&)> command;
@@ -157,6 +182,15 @@ int main(int argc, char** argv) {
   statics->footer(
       "Example: perimode static plate.yaml --set analysis.static.tolerance=1e-10 --output out/plate --force");
   statics->callback([&] { command = [&](Console& c) { return run_static(arguments, c); }; });
+
+  CLI::App* transient = app.add_subcommand("transient", "follow a body through time");
+  common(transient);
+  result(transient);
+  transient->add_flag("--resume", arguments.resume, "go on from the last checkpoint of an unfinished run");
+  transient->footer(
+      "Example: perimode transient plate.yaml --set analysis.transient.end=2.0e-3 --output out/plate "
+      "--force");
+  transient->callback([&] { command = [&](Console& c) { return run_transient(arguments, c); }; });
 
   CLI::App* check = app.add_subcommand("check", "read a case and predict what it takes; runs nothing");
   common(check);

@@ -6,50 +6,61 @@
 #include "perimode/io/case.hpp"
 #include "perimode/modal/plan.hpp"
 #include "static_output.hpp"
+#include "transient_output.hpp"
 
 namespace perimode::cli {
 
 namespace {
 
-/// A static analysis alone: no modes are predicted where none are asked for.
+/// The body of a case, once it is clear that it can fit.
 template <int Dim>
-int check_static(const Case& input, Console& console) {
+Body<Dim> checked_body(const Case& input, Console& console) {
   refuse_if_too_large(least_body_bytes(input.model), "the body");
-  const Body<Dim> body = build_body<Dim>(input.model, console.sink());
+  Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
-  const StaticPlan plan = [&] {
-    try {
-      return plan_static(body, *input.statics);
-    } catch (const Error& error) {
-      throw at(error, input.static_where);
-    }
-  }();
+  return body;
+}
+
+/// What `plan` returns; its errors point at a section of the case.
+template <class Plan>
+auto planned(const Where& section, const Plan& plan) {
+  try {
+    return plan();
+  } catch (const Error& error) {
+    throw at(error, section);
+  }
+}
+
+void show_plan(const std::string& text, double memory_bytes, const char* what, Console& console) {
   console.clear_progress();
-  if (!input.modal)
-    fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
-  fmt::print("{}", static_plan_text(plan));
+  fmt::print("{}", text);
   std::fflush(stdout);
-  refuse_if_too_large(plan.memory_bytes, "this static analysis");
-  return 0;
+  refuse_if_too_large(memory_bytes, what);
 }
 
 template <int Dim>
-int check(const Case& input, Console& console) {
-  if (input.statics && !input.modal) return check_static<Dim>(input, console);
-  refuse_if_too_large(least_body_bytes(input.model), "the body");
-  const Body<Dim> body = build_body<Dim>(input.model, console.sink());
-  console.stage("analysing", -1.0);
-  const ModalPlan plan = [&] {
-    try {
-      ModalOptions options = input.modal.value_or(ModalOptions{});
-      options.memory_limit = 0.9 * available_memory();
-      return plan_modes(body, options);
-    } catch (const Error& error) {
-      throw at(error, input.modal_where);
-    }
-  }();
+void check_static(const Body<Dim>& body, const Case& input, Console& console) {
+  const StaticPlan plan = planned(input.static_where, [&] { return plan_static(body, *input.statics); });
+  show_plan(static_plan_text(plan), plan.memory_bytes, "this static analysis", console);
+}
+
+template <int Dim>
+void check_transient(const Body<Dim>& body, const Case& input, Console& console) {
+  const TransientPlan plan = planned(input.transient_where, [&] {
+    (void)initial_state(input.initial, body.particles);
+    return plan_transient(body, *input.transient);
+  });
+  show_plan(transient_plan_text(body, plan), plan.memory_bytes, "this transient analysis", console);
+}
+
+template <int Dim>
+void check_modal(const Body<Dim>& body, const Case& input, Console& console) {
+  const ModalPlan plan = planned(input.modal_where, [&] {
+    ModalOptions options = input.modal.value_or(ModalOptions{});
+    options.memory_limit = 0.9 * available_memory();
+    return plan_modes(body, options);
+  });
   console.clear_progress();
-  fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
   fmt::print("particles        {}", plan.particles);
   if (plan.ghosts > 0) fmt::print("  (+ {} fictitious)", plan.ghosts);
   fmt::print("\nbonds            {}", plan.bonds);
@@ -73,7 +84,18 @@ int check(const Case& input, Console& console) {
   std::fflush(stdout);
   for (const auto& warning : plan.warnings) console.warning(warning);
   refuse_if_too_large(plan.memory_bytes, "these modes");
-  return input.statics ? check_static<Dim>(input, console) : 0;
+}
+
+/// Modes are predicted where they are asked for, or nothing else is.
+template <int Dim>
+int check(const Case& input, Console& console) {
+  const Body<Dim> body = checked_body<Dim>(input, console);
+  console.clear_progress();
+  fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
+  if (input.modal || !(input.statics || input.transient)) check_modal(body, input, console);
+  if (input.statics) check_static(body, input, console);
+  if (input.transient) check_transient(body, input, console);
+  return 0;
 }
 
 }  // namespace

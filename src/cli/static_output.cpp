@@ -6,62 +6,12 @@
 #include <algorithm>
 #include <iterator>
 
+#include "fields.hpp"
 #include "machine.hpp"
-#include "perimode/assembly/fields.hpp"
 #include "perimode/core/version.hpp"
 #include "perimode/io/exodus.hpp"
 
 namespace perimode::cli {
-
-namespace {
-
-/// Nodal variables and their values, in the order they are written.
-struct Fields {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> values;
-
-  void add(std::string name, std::vector<double> value) {
-    names.push_back(std::move(name));
-    values.push_back(std::move(value));
-  }
-};
-
-std::vector<std::string> tensor_suffixes(int dimension) {
-  if (dimension == 1) return {"_xx"};
-  if (dimension == 2) return {"_xx", "_yy", "_xy"};
-  return {"_xx", "_yy", "_zz", "_xy", "_xz", "_yz"};
-}
-
-template <int Dim>
-void add_tensor(Fields& fields, const std::string& name, const Eigen::MatrixXd& tensor) {
-  const auto suffixes = tensor_suffixes(Dim);
-  for (std::size_t c = 0; c < suffixes.size(); ++c) {
-    const auto row = tensor.row(static_cast<Eigen::Index>(c));
-    fields.add(name + suffixes[c], {row.begin(), row.end()});
-  }
-}
-
-template <int Dim>
-Fields chosen_fields(const Body<Dim>& body, const Eigen::VectorXd& u,
-                     const std::vector<std::string>& chosen) {
-  Fields fields;
-  for (const std::string& name : chosen) {
-    if (name == "displacement") {
-      auto components = three_components({u.data(), static_cast<std::size_t>(u.size())}, Dim);
-      for (std::size_t a = 0; a < 3; ++a) fields.add(name + "_" + "xyz"[a], std::move(components[a]));
-    } else if (name == "strain") {
-      add_tensor<Dim>(fields, name, strain(body, u));
-    } else if (name == "stress") {
-      add_tensor<Dim>(fields, name, stress(body, u));
-    } else {
-      const Eigen::VectorXd values = name == "damage" ? damage(body) : energy_density(body, u);
-      fields.add(name, {values.begin(), values.end()});
-    }
-  }
-  return fields;
-}
-
-}  // namespace
 
 Table reactions_table(const StaticResult& result, int dimension) {
   Table table;
@@ -124,7 +74,7 @@ void write_fields_exodus(const std::filesystem::path& file, const std::string& t
   ExodusMesh mesh = exodus_mesh(body.particles);
   mesh.title = title;
   mesh.info.push_back("perimode " + version() + ", static analysis");
-  Fields chosen = chosen_fields(body, result.displacement, fields);
+  Fields chosen = chosen_fields<Dim>(body, result.displacement, nullptr, fields);
   ExodusWriter writer(file, mesh, {}, chosen.names);
   writer.write({0.0, {}, std::move(chosen.values)});
   writer.close();

@@ -42,6 +42,13 @@ void require_replaceable(const fs::path& target, bool force) {
   }
 }
 
+fs::path full_path(const fs::path& target) {
+  if (target.empty())
+    invalid_input({"a folder for the result", "an empty name", "give for example out/plate", {}});
+  const fs::path full = fs::weakly_canonical(fs::absolute(target));
+  return full.has_filename() ? full : full.parent_path();
+}
+
 std::vector<fs::path> missing_parents(const fs::path& target) {
   std::vector<fs::path> missing;
   for (fs::path p = target.parent_path(); !p.empty() && !fs::exists(p); p = p.parent_path())
@@ -95,17 +102,11 @@ void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
   }
 }
 
-void ResultDirectory::set_target(const fs::path& target, bool force) {
-  if (target.empty())
-    invalid_input({"a folder for the result", "an empty name", "give for example out/plate", {}});
-  target_ = fs::weakly_canonical(fs::absolute(target));
-  if (!target_.has_filename()) target_ = target_.parent_path();
-  require_replaceable(target_, force);
-}
 
 ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
   try {
-    set_target(target, force);
+    target_ = full_path(target);
+    require_replaceable(target_, force);
     unfinished_.parents = missing_parents(target_);
     fs::create_directories(target_.parent_path());
     temporary_ = fmt::format("{}.part-{}", target_.string(), ::getpid());
@@ -119,9 +120,10 @@ ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
 
 ResultDirectory::ResultDirectory(const fs::path& target, bool force, Beginning beginning) {
   try {
-    set_target(target, force);
+    target_ = full_path(target);
     temporary_ = target_.string() + ".unfinished";
     require_beginning(temporary_, force, beginning);
+    require_replaceable(target_, force);
     const std::vector<fs::path> parents = missing_parents(target_);
     fs::create_directories(temporary_);
     lock_ = locked(temporary_);

@@ -50,8 +50,6 @@ class ResultDirectory {
   void commit();
 
  private:
-  void set_target(const std::filesystem::path& target, bool force);
-
   std::filesystem::path target_;
   std::filesystem::path temporary_;  ///< empty: committed
   UnfinishedResult unfinished_;
