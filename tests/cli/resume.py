@@ -81,6 +81,11 @@ class Resume(ProgramTest):
             del data[chance.randrange(len(data)):]
         file.write_bytes(data)
 
+    def next_arguments(self, sets, unfinished):
+        """Resumes where there is a checkpoint."""
+        have = (unfinished / "checkpoint.h5").exists() or (unfinished / "checkpoint.previous.h5").exists()
+        return self.arguments(sets, "out/run", *(["--resume"] if have else []), "--force")
+
     def run_with_kills(self, name):
         self.write("case.yaml", EXPLICIT)
         sets, chance = SETS[name], random.Random(name)
@@ -91,25 +96,19 @@ class Resume(ProgramTest):
         unfinished = self.folder / "out/run.unfinished"
         kills = resumed = damaged = 0
         while kills < KILLS:
-            have = (unfinished / "checkpoint.h5").exists() or (unfinished / "checkpoint.previous.h5").exists()
             if (unfinished / "checkpoint.h5").exists() and (unfinished / "checkpoint.previous.h5").exists() and \
                     chance.random() < 0.2:
                 self.damage(unfinished / "checkpoint.h5", chance)
                 damaged += 1
-            arguments = self.arguments(sets, "out/run", *(["--resume"] if have else []), "--force")
-            resumed += have
+            arguments = self.next_arguments(sets, unfinished)
+            resumed += "--resume" in arguments
             if self.once(arguments, chance.uniform(0.0, whole_seconds)) is None:
                 kills += 1
             else:
                 self.assertEqual(self.left("out/run"), expected)
-        while not self.result_whole(sets, unfinished):
-            pass
+        self.assertEqual(self.once(self.next_arguments(sets, unfinished), 300), 0)
         self.assertEqual(self.left("out/run"), expected)
         self.assertGreater(resumed, 0)
-
-    def result_whole(self, sets, unfinished):
-        have = (unfinished / "checkpoint.h5").exists() or (unfinished / "checkpoint.previous.h5").exists()
-        return self.once(self.arguments(sets, "out/run", *(["--resume"] if have else []), "--force"), 300) == 0
 
 
 for kind in SETS:
