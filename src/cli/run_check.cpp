@@ -3,6 +3,7 @@
 
 #include "commands.hpp"
 #include "machine.hpp"
+#include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/io/case.hpp"
 #include "perimode/modal/plan.hpp"
 #include "static_output.hpp"
@@ -48,7 +49,9 @@ template <int Dim>
 void check_transient(const Body<Dim>& body, const Case& input, Console& console) {
   const TransientPlan plan = planned(input.transient_where, [&] {
     (void)initial_state(input.initial, body.particles);
-    return plan_transient(body, *input.transient);
+    TransientOptions options = *input.transient;
+    options.critical_stretch = critical_stretches(input.model, body);
+    return plan_transient(body, options);
   });
   show_plan(transient_plan_text(body, plan), plan.memory_bytes, "this transient analysis", console);
 }

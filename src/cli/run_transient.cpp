@@ -6,6 +6,7 @@
 #include "commands.hpp"
 #include "interrupt.hpp"
 #include "machine.hpp"
+#include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/io/case.hpp"
 #include "perimode/io/checkpoint.hpp"
@@ -136,10 +137,11 @@ nlohmann::ordered_json transient_summary(const Case& input, const Body<Dim>& bod
 
 /// The run; errors of the case point at its section.
 template <int Dim>
-TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientObserver<Dim>& observer,
-                          const std::optional<Checkpoint>& from, const Sink& sink) {
+TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientOptions& options,
+                          const TransientObserver<Dim>& observer, const std::optional<Checkpoint>& from,
+                          const Sink& sink) {
   try {
-    return run_transient(body, *input.transient, initial_state(input.initial, body.particles), observer,
+    return run_transient(body, options, initial_state(input.initial, body.particles), observer,
                          from ? &from->state : nullptr, sink);
   } catch (const Error& error) {
     throw error.kind() == ErrorKind::invalid_input ? at(error, input.transient_where) : error;
@@ -169,17 +171,19 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
 
   Body<Dim> body = build_body<Dim>(input.model, sink);
   const double seconds_body = seconds_since(start);
+  TransientOptions options = *input.transient;
+  options.critical_stretch = critical_stretches(input.model, body);
   // The exact prediction costs the stable step; it is made where memory could be short.
   if (25.0 * least_bytes > available_memory()) {
     sink.report("predicting memory");
-    refuse_if_too_large(plan_transient(body, *input.transient).memory_bytes, "this transient analysis");
+    refuse_if_too_large(plan_transient(body, options).memory_bytes, "this transient analysis");
   }
 
   Recorder<Dim> recorder(input, body, folder, digest, from);
   TransientResult result;
   try {
     result = run_steps(
-        body, input,
+        body, input, options,
         recorder.observer(fmt::format("interrupted at once; if there is a checkpoint, go on with: {}",
                                       resume_command(arguments))),
         from, sink);

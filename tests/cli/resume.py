@@ -23,7 +23,7 @@ analysis:
   transient:
     end: 4.0e-3
     initial: { displacement: ["1.0e-3*exp(-100*(x-0.5)^2)"], velocity: ["x"] }
-    damping: { rayleigh: { mass: 100, stiffness: 1.0e-9 } }
+    damping: { rayleigh: [100, 1.0e-9] }
     loads: [ { body_force: [1.0e+5], time: { ricker: 2.0e+4 } } ]
     probes: { middle: { displacement_at: [0.5] }, end: { velocity_at: [0.9] } }
     history_every: 7
@@ -38,8 +38,8 @@ SETS = {
     "hht": ("analysis.transient.method=hht", "analysis.transient.alpha=-0.1", "analysis.transient.dt=1.0e-6",
             "analysis.transient.solver=cg"),
     "modal": ("analysis.transient.method=modal", "analysis.transient.dt=1.0e-6",
-              "analysis.transient.damping.rayleigh={ mass: 100 }"),
-    "turning": ("kinematics=large_rotation", "analysis.transient.damping.rayleigh={ mass: 100 }"),
+              "analysis.transient.damping.rayleigh=[100, 0]"),
+    "turning": ("kinematics=large_rotation", "analysis.transient.damping.rayleigh=[100, 0]"),
 }
 KILLS = 60  # of every kind of run
 RUN_AGAIN = ("timings_s", "peak_memory_mb", "resumed_from", "particle_steps_per_second")  # differ from run to run

@@ -142,13 +142,12 @@ class Results(TransientTest):
         self.assertEqual(frames, last // 20 + 1)
 
     def test_an_unsymmetric_boundary_shows_its_work(self):
-        walls = PLATE.replace("  - { fix: [x, y], at: { face: x-, layers: 2 } }\n", "  - { wall: y-, type: odd }\n")
-        self.run_case(walls)
-        table = rows(self.result("plate") / "history.csv")
+        self.run_case(BAR.replace("{ wall: x+, type: odd }", "{ wall: x+, type: surface_nodes }"))
+        table = rows(self.result() / "history.csv")
         self.assertEqual(list(table[0])[-1], "boundary_work")
         self.assertEqual({row["boundary_work"] == row["balance"] for row in table}, {True})
         self.assertGreater(abs(float(table[-1]["boundary_work"])), 0.0)
-        self.assertFalse(self.summary("plate")["symmetric"])
+        self.assertFalse(self.summary()["symmetric"])
 
     def test_threads_change_no_bit(self):
         found = set()
@@ -231,10 +230,12 @@ class Unfinished(TransientTest):
         self.write("case.yaml", text)
         run = subprocess.Popen([PROGRAM, "transient", "case.yaml", "--threads", "1", *arguments], cwd=self.folder,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(run.stdout.close)
-        self.addCleanup(run.stderr.close)
-        self.addCleanup(run.kill)
+        self.addCleanup(self.end, run)
         return run
+
+    def end(self, run):
+        run.kill()
+        run.communicate()
 
     def wait_for(self, name):
         """Until the run steps: its history is there."""
@@ -318,11 +319,7 @@ class Unfinished(TransientTest):
 
     def test_comments_and_layout_are_no_other_case(self):
         self.interrupted()
-        self.write("case.yaml", "# the same\n" + LONG.replace("{ ratio: 3 }", "\n    ratio: 3"))
-        run = subprocess.Popen([PROGRAM, "transient", "case.yaml", "--resume", "--threads", "1"], cwd=self.folder,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-        self.addCleanup(run.stderr.close)
-        self.addCleanup(run.kill)
+        run = self.start("--resume", text="# the same\n" + LONG.replace("{ ratio: 3 }", "\n    ratio: 3"))
         time.sleep(1.0)
         self.assertIsNone(run.poll(), "still at work")
 
