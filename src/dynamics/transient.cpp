@@ -92,6 +92,23 @@ struct Run {
   std::unique_ptr<Integrator> integrator;
 };
 
+constexpr const char* iterations_name = "iterations of the solver";
+
+/// The integrator's state and the count of iterations so far.
+template <int Dim>
+IntegratorState saved(const Run<Dim>& run) {
+  IntegratorState state = run.integrator->save();
+  state.bits[iterations_name] = {static_cast<std::uint64_t>(*run.iterations)};
+  return state;
+}
+
+template <int Dim>
+void restore(Run<Dim>& run, IntegratorState state) {
+  const auto counted = state.bits.extract(iterations_name);
+  if (!counted.empty()) *run.iterations = static_cast<Offset>(counted.mapped().at(0));
+  run.integrator->restore(state);
+}
+
 template <int Dim>
 std::unique_ptr<Integrator> implicit_integrator(const Body<Dim>& body, const TransientOptions& options,
                                                 Run<Dim>& run, TransientPlan& plan) {
@@ -139,7 +156,7 @@ class Progress {
     const auto now = Clock::now();
     if (std::chrono::duration<double>(now - last_).count() < 0.2) return;
     last_ = now;
-    sink_->report(fmt::format("stepping, {} steps", steps_),
+    sink_->report(fmt::format("step {} of {}", step, steps_),
                   static_cast<double>(step) / static_cast<double>(steps_));
   }
 
@@ -186,7 +203,7 @@ class Stepper {
     if (observer_->fields && std::binary_search(field_steps_.begin(), field_steps_.end(), step)) frame(step);
     if (observer_->checkpoint && options_->checkpoint_every > 0 && step % options_->checkpoint_every == 0 &&
         step > result_->first_step && step < result_->plan.steps) {
-      observer_->checkpoint(run_->integrator->save());
+      observer_->checkpoint(saved(*run_));
     }
     return true;
   }
@@ -267,7 +284,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
 
   Stepper<Dim> stepper(body, options, observer, result, run);
   if (resume != nullptr) {
-    run.integrator->restore(*resume);
+    restore(run, *resume);
     result.first_step = run.integrator->step();
     stepper.settle();
   } else {
@@ -280,7 +297,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   bool sound = resume != nullptr || stepper.report();
   while (sound && run.integrator->step() < result.plan.steps) {
     if (observer.stop && observer.stop()) {
-      if (observer.checkpoint) observer.checkpoint(run.integrator->save());
+      if (observer.checkpoint) observer.checkpoint(saved(run));
       result.status = TransientStatus::interrupted;
       break;
     }
