@@ -7,7 +7,7 @@
 #include <map>
 
 #include "perimode/assembly/body.hpp"
-#include "perimode/geometry/cloud.hpp"
+#include "perimode/geometry/mesh.hpp"
 
 namespace perimode {
 
@@ -25,8 +25,8 @@ void require_positive(double value, const char* name, const Where& where) {
 }
 
 template <int Dim>
-Particles<Dim> cloud_particles(const CloudSpec& spec) {
-  CloudData data = read_cloud(spec.file, Dim);
+Particles<Dim> cloud_particles(const CloudSpec& spec, double section) {
+  CloudData data = read_particles(spec.file, Dim, section);
   Particles<Dim> p;
   std::map<std::string, int> number = {{"", 0}};
   for (std::size_t i = 0; i < data.volume.size(); ++i) {
@@ -58,7 +58,7 @@ Particles<Dim> make_particles(const Model& model) {
       invalid_input({"a body with particles", "none left after `remove`", "remove less", spec->where});
     }
   } else {
-    particles = cloud_particles<Dim>(std::get<CloudSpec>(model.particles));
+    particles = cloud_particles<Dim>(std::get<CloudSpec>(model.particles), section_of(model));
   }
   for (const auto& block : model.blocks) {  // where blocks overlap the last one holds
     const auto inside = select(block.region, particles);

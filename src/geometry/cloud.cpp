@@ -5,15 +5,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <compare>
 #include <fstream>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <sstream>
 #include <string_view>
 
 #include "core/csv.hpp"
+#include "geometry/element.hpp"
 
 namespace perimode {
 
@@ -105,23 +104,11 @@ class CloudReader {
   }
 
   void require_distinct() const {
-    const auto d = static_cast<std::size_t>(data_.dimension);
-    const auto at = [&](std::size_t i) {
-      return data_.position.begin() + static_cast<std::ptrdiff_t>(d * i);
-    };
-    std::vector<std::size_t> order(data_.count());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
-      const auto order_ij = std::lexicographical_compare_three_way(at(i), at(i + 1), at(j), at(j + 1));
-      return std::is_neq(order_ij) ? std::is_lt(order_ij) : i < j;
-    });
-    for (std::size_t k = 1; k < order.size(); ++k) {
-      if (std::equal(at(order[k]), at(order[k] + 1), at(order[k - 1]))) {
-        complain("every particle at a point of its own",
-                 fmt::format("the point of line {} again", line_of_[order[k - 1]]), "remove one of the two",
-                 {line_of_[order[k]], 1});
-      }
-    }
+    const auto [first, second] = twin_points(data_);
+    if (first < 0) return;
+    complain("every particle at a point of its own",
+             fmt::format("the point of line {} again", line_of_[static_cast<std::size_t>(first)]),
+             "remove one of the two", {line_of_[static_cast<std::size_t>(second)], 1});
   }
 
   std::string file_;

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "io/case_sections.hpp"
-#include "perimode/geometry/cloud.hpp"
+#include "perimode/geometry/mesh.hpp"
 
 namespace perimode::case_file {
 
@@ -23,7 +23,8 @@ class BlockNames {
   void require(const std::string& name, const Where& where) {
     if (known(name)) return;
     if (const auto* cloud = std::get_if<CloudSpec>(&model_.particles); cloud != nullptr && !file_read_) {
-      const CloudData data = read_cloud(cloud->file, model_.dimension);
+      const double section = model_.dimension == 2 ? model_.thickness : 1.0;
+      const CloudData data = read_particles(cloud->file, model_.dimension, section);
       const std::set<std::string> named(data.block.begin(), data.block.end());
       for (const std::string& block : named) {
         if (!block.empty()) add(block);

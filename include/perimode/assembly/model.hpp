@@ -26,7 +26,7 @@ struct GridSpec {
   Where where = {};
 };
 
-/// Particles of a CSV file with the header x[,y[,z]],volume[,block].
+/// Particles of a CSV file with the header x[,y[,z]],volume[,block], or of a mesh (geometry/mesh.hpp).
 struct CloudSpec {
   std::filesystem::path file;
   Where where = {};
