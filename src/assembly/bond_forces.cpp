@@ -70,6 +70,7 @@ struct BondForces<Dim>::Implementation {
   std::vector<Moving> dofs, ghosts;
   std::vector<double> moving_displacement, moving_force;
   std::vector<OverStretched> last;  ///< broken in the last evaluation
+  bool with_energy = false;
   Offset broken = 0;
   double energy = 0.0;
   RowProduct product;
@@ -90,7 +91,10 @@ struct BondForces<Dim>::Implementation {
     for (const Moving& m : dofs) given.moving.push_back(m.at);
     moving_displacement.resize(dofs.size());
     moving_force.resize(dofs.size());
-    evaluation = make_bond_evaluation(of, turning, critical_measures(of, critical_stretch, turning), no_fail);
+    const auto measure = critical_measures(of, critical_stretch, turning);
+    evaluation = std::holds_alternative<GridBonds<Dim>>(of.bonds)
+                     ? make_grid_evaluation(of, turning, measure, no_fail)
+                     : make_cloud_evaluation(of, turning, measure, no_fail);
     set_time(0.0);
     product = {map.free, evaluation->pieces(), true,
                [this](const double* q, const auto& take) { apply(q, take); }};
@@ -107,7 +111,23 @@ struct BondForces<Dim>::Implementation {
 
   void apply(const double* q, const std::function<void(const RowPiece&)>& take) {
     last.clear();
-    for (const OverStretched& bond : evaluation->forces(given, q, take, moving_force.data())) break_one(bond);
+    const BondRequest request{&take, moving_force.data(), with_energy};
+    for (const OverStretched& bond : evaluation->forces(given, q, request)) break_one(bond);
+  }
+
+  /// Bonds beyond their limit that no evaluation has broken yet count, end by end.
+  [[nodiscard]] double strain_energy(const double* q) const {
+    double beyond = 0.0;
+    for (const OverStretched& bond : evaluation->forces(given, q, {nullptr, nullptr, true})) {
+      std::visit(
+          [&](const auto& bonds) {
+            const BondEnd<Dim> end = end_at(bonds, bond.particle, bond.slot);
+            const double share = end.neighbour < body->count() ? 0.5 : 1.0;
+            beyond += share * energy_of(bond.particle, end, evaluation->relative(bond.particle, end));
+          },
+          body->bonds);
+    }
+    return evaluation->energy() + beyond;
   }
 
   void break_one(const OverStretched& bond) {
@@ -216,7 +236,17 @@ double BondForces<Dim>::last_broken_energy(const double* q) const {
 
 template <int Dim>
 double BondForces<Dim>::strain_energy(const double* q) const {
-  return implementation_->evaluation->energy(implementation_->given, q);
+  return implementation_->strain_energy(q);
+}
+
+template <int Dim>
+void BondForces<Dim>::follow_energy(bool wanted) {
+  implementation_->with_energy = wanted;
+}
+
+template <int Dim>
+double BondForces<Dim>::last_strain_energy() const {
+  return implementation_->evaluation->energy();
 }
 
 template <int Dim>

@@ -18,24 +18,32 @@ using Bits __attribute__((vector_size(width * sizeof(double)), aligned(8), may_a
   return *reinterpret_cast<const Vector*>(from);
 }
 
-/// x - 0 is x, which the compiler knows.
-[[gnu::always_inline]] inline Vector all(double x) { return x - Vector{}; }
-
 [[gnu::always_inline]] inline Vector root(const Vector& of) {
   Vector result;
   for (int lane = 0; lane < width; ++lane) result[lane] = std::sqrt(of[lane]);
   return result;
 }
 
-/// Eight bonds. X: a number where xi is the same for all, a vector where it is not.
-template <int Dim, bool Turning>
-struct Stretched {
-  Vector measure;
-  Vector along[Dim];  ///< y; linear: xi
-  Vector pull;        ///< force = stiffness pull along
-  Vector extension;   ///< energy = stiffness extension^2 / 2
+/// A constant of eight bonds: one number, or one per lane. Numbers are left to meet vectors in the arithmetic
+/// itself: that is a broadcast for the compiler, a vector made of one is more.
+template <bool PerLane>
+struct Constant {
+  using Type = double;
+};
+template <>
+struct Constant<true> {
+  using Type = Vector;
+};
 
-  template <class X>
+/// Eight bonds, of one xi or each of its own.
+template <int Dim, bool Turning, bool PerLane>
+struct Stretched {
+  using X = typename Constant<PerLane>::Type;
+  Vector measure;
+  typename Constant<Turning || PerLane>::Type along[Dim];  ///< y; linear: xi
+  Vector pull;                                             ///< force = stiffness pull along
+  Vector held;                                             ///< energy = stiffness pull held / 2
+
   [[gnu::always_inline]] inline Stretched(const X* xi, const X& length, const Vector (&eta)[Dim]) {
     if constexpr (Turning) {
       for (int a = 0; a < Dim; ++a) along[a] = xi[a] + eta[a];
@@ -47,13 +55,13 @@ struct Stretched {
       }
       const Vector now = root(square);
       pull = measure / (square + length * now);
-      extension = pull * now;
+      held = pull * square;
     } else {
-      for (int a = 0; a < Dim; ++a) along[a] = xi[a] - Vector{};
+      for (int a = 0; a < Dim; ++a) along[a] = xi[a];
       measure = xi[0] * eta[0];
       for (int a = 1; a < Dim; ++a) measure += xi[a] * eta[a];
       pull = measure;
-      extension = measure;
+      held = measure;
     }
   }
 };
@@ -63,7 +71,9 @@ struct Stretched {
   return set != 0 ? value : Vector{};
 }
 /// Those bits of bonds that are not beyond their limit.
-[[gnu::always_inline]] inline Bits within(const Vector& measure, const Vector& limit, const Bits& bits) {
+template <bool PerLane>
+[[gnu::always_inline]] inline Bits within(const Vector& measure,
+                                          const typename Constant<PerLane>::Type& limit, const Bits& bits) {
   return measure > limit ? Bits{} : bits;
 }
 
@@ -73,15 +83,12 @@ struct Sums {
   Vector force[Dim] = {};
   Vector energy = {};
 
-  template <bool Turning>
-  [[gnu::always_inline]] inline void add(const Stretched<Dim, Turning>& bond, const Vector& stiffness,
-                                         const Bits& carry) {
-    if constexpr (Energy) {
-      energy += where(carry, stiffness * (bond.extension * bond.extension));
-    } else {
-      const Vector pull = where(carry, stiffness * bond.pull);
-      for (int a = 0; a < Dim; ++a) force[a] -= pull * bond.along[a];
-    }
+  template <bool PerLane, class Bond>
+  [[gnu::always_inline]] inline void add(const Bond& bond, const typename Constant<PerLane>::Type& stiffness,
+                                         const typename Constant<PerLane>::Type& share, const Bits& carry) {
+    const Vector pull = where(carry, stiffness * bond.pull);
+    for (int a = 0; a < Dim; ++a) force[a] -= pull * bond.along[a];
+    if constexpr (Energy) energy += share * (pull * bond.held);
   }
 };
 
@@ -95,7 +102,7 @@ struct Varied {
   }
   [[gnu::always_inline]] inline Vector stiffness(int k) const {
     const CellValues& c = run.cells;
-    const Vector one = all(1.0);
+    const Vector one = Vector{} + 1.0;
     const Vector mine = c.factor ? load(c.factor + t) : one;
     const Vector other = c.factor ? at(c.factor, k) : one;
     if (c.block == nullptr) return (0.5 * mine + 0.5 * other) * run.stiffness[k];
@@ -111,7 +118,7 @@ struct Varied {
   }
   [[gnu::always_inline]] inline Vector limit(int k) const {
     const CellValues& c = run.cells;
-    if (c.limit == nullptr) return all(run.limit[k]);
+    if (c.limit == nullptr) return run.limit[k] - Vector{};
     const Vector mine = load(c.limit + t), other = at(c.limit, k);
     const Vector smaller = mine < other ? mine : other;
     const Vector here = load(c.never + t), there = at(c.never, k);
@@ -119,7 +126,7 @@ struct Varied {
     return run.square[k] * (smaller > never ? smaller : never);
   }
   [[gnu::always_inline]] inline Vector share(int k) const {
-    return run.cells.share ? at(run.cells.share, k) : all(0.5);
+    return run.cells.share ? at(run.cells.share, k) : Vector{} + 0.5;
   }
 };
 
@@ -154,30 +161,25 @@ template <int Dim, bool Turning, bool Vary, bool Energy>
         const double* other = run.u + t + run.step[k];
         Vector eta[Dim];
         for (int a = 0; a < Dim; ++a) eta[a] = load(other + a * run.stride) - here[a];
-        const Stretched<Dim, Turning> bond(run.xi + static_cast<std::ptrdiff_t>(k) * Dim, run.length[k], eta);
+        const Stretched<Dim, Turning, false> bond(run.xi + static_cast<std::ptrdiff_t>(k) * Dim,
+                                                  run.length[k], eta);
         const Bits alive = word & static_cast<std::int64_t>(std::uint64_t{1} << (k - 64 * w));
-        if constexpr (Energy) {
+        if constexpr (Vary) {
           const Varied cell{run, t};
-          sums.add(bond, cell.share(k) * cell.stiffness(k), alive);
-        } else if constexpr (Vary) {
-          const Varied cell{run, t};
-          const Bits kept = within(bond.measure, cell.limit(k), alive);
+          const Bits kept = within<true>(bond.measure, cell.limit(k), alive);
           gone |= alive ^ kept;
-          sums.add(bond, cell.stiffness(k), kept);
+          sums.template add<true>(bond, cell.stiffness(k), cell.share(k), kept);
         } else {
-          const Bits kept = within(bond.measure, all(run.limit[k]), alive);
+          const Bits kept = within<false>(bond.measure, run.limit[k], alive);
           gone |= alive ^ kept;
-          sums.add(bond, all(run.stiffness[k]), kept);
+          sums.template add<false>(bond, run.stiffness[k], 0.5, kept);
         }
       }
-      if (!Energy && any(gone)) report(run, t, w, gone);
+      if (any(gone)) report(run, t, w, gone);
     }
-    if constexpr (Energy) {
-      *reinterpret_cast<Vector*>(run.out + t) = 0.5 * sums.energy;
-    } else {
-      for (int a = 0; a < Dim; ++a)
-        *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t) = sums.force[a];
-    }
+    for (int a = 0; a < Dim; ++a)
+      *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t) = sums.force[a];
+    if constexpr (Energy) *reinterpret_cast<Vector*>(run.energy + t) = 0.5 * sums.energy;
   }
 }
 
@@ -210,39 +212,41 @@ template <int Dim, bool Turning, bool Energy>
         for (int a = 0; a < Dim; ++a) eta[a][lane] = other[a] - here[a];
       }
       for (int a = 0; a < Dim; ++a) xi[a] = load(run.xi + a * run.stride + e);
-      const Stretched<Dim, Turning> bond(xi, load(run.length + e), eta);
+      const Stretched<Dim, Turning, true> bond(xi, load(run.length + e), eta);
       const Bits alive = (static_cast<std::int64_t>(bits) + Bits{}) & lane_bit;
-      const Bits kept = Energy ? alive : within(bond.measure, load(run.limit + e), alive);
-      sums.add(bond, load(run.stiffness + e), kept);
+      const Bits kept = within<true>(bond.measure, load(run.limit + e), alive);
+      sums.template add<true>(bond, load(run.stiffness + e), Vector{} + 0.5, kept);
       const Bits gone = alive ^ kept;
-      if (!Energy && any(gone)) {
+      if (any(gone)) {
         for (int lane = 0; lane < width; ++lane)
           if (gone[lane] != 0) run.broken->push_back({t, e + lane});
       }
     }
-    if constexpr (Energy) {
-      run.out[t] = 0.25 * total(sums.energy);
-    } else {
-      for (int a = 0; a < Dim; ++a) run.out[a * run.out_stride + t] = total(sums.force[a]);
-    }
+    for (int a = 0; a < Dim; ++a) run.out[a * run.out_stride + t] = total(sums.force[a]);
+    if constexpr (Energy) run.energy[t] = 0.5 * total(sums.energy);
   }
 }
 
 template <int Dim, bool Turning>
 [[gnu::always_inline]] inline void any_grid(const GridRun& run) {
-  if (run.cells.factor || run.cells.block || run.cells.limit)
-    grid_run<Dim, Turning, true, false>(run);
+  const CellValues& c = run.cells;
+  const bool vary = c.factor || c.block || c.limit;
+  if (run.energy == nullptr)
+    vary ? grid_run<Dim, Turning, true, false>(run) : grid_run<Dim, Turning, false, false>(run);
   else
-    grid_run<Dim, Turning, false, false>(run);
+    vary || c.share ? grid_run<Dim, Turning, true, true>(run) : grid_run<Dim, Turning, false, true>(run);
 }
 
-#define PERIMODE_KERNELS(D)                                                                                \
-  PERIMODE_EVERY_PROCESSOR void turning_grid_##D(const GridRun& r) { any_grid<D, true>(r); }               \
-  PERIMODE_EVERY_PROCESSOR void linear_grid_##D(const GridRun& r) { any_grid<D, false>(r); }               \
-  PERIMODE_EVERY_PROCESSOR void turning_energy_##D(const GridRun& r) { grid_run<D, true, true, true>(r); } \
-  PERIMODE_EVERY_PROCESSOR void linear_energy_##D(const GridRun& r) { grid_run<D, false, true, true>(r); } \
-  PERIMODE_EVERY_PROCESSOR void turning_cloud_##D(const CloudRun& r) { cloud_run<D, true, false>(r); }     \
-  PERIMODE_EVERY_PROCESSOR void linear_cloud_##D(const CloudRun& r) { cloud_run<D, false, false>(r); }
+template <int Dim, bool Turning>
+[[gnu::always_inline]] inline void any_cloud(const CloudRun& run) {
+  run.energy ? cloud_run<Dim, Turning, true>(run) : cloud_run<Dim, Turning, false>(run);
+}
+
+#define PERIMODE_KERNELS(D)                                                                     \
+  PERIMODE_EVERY_PROCESSOR void turning_grid_##D(const GridRun& r) { any_grid<D, true>(r); }    \
+  PERIMODE_EVERY_PROCESSOR void linear_grid_##D(const GridRun& r) { any_grid<D, false>(r); }    \
+  PERIMODE_EVERY_PROCESSOR void turning_cloud_##D(const CloudRun& r) { any_cloud<D, true>(r); } \
+  PERIMODE_EVERY_PROCESSOR void linear_cloud_##D(const CloudRun& r) { any_cloud<D, false>(r); }
 PERIMODE_KERNELS(1)
 PERIMODE_KERNELS(2)
 PERIMODE_KERNELS(3)
@@ -250,22 +254,14 @@ PERIMODE_KERNELS(3)
 
 }  // namespace
 
-#define PERIMODE_BOND_KERNELS(D)                                              \
-  template <>                                                                 \
-  void bond_forces<D>(const GridRun& run, bool turning) {                     \
-    turning ? turning_grid_##D(run) : linear_grid_##D(run);                   \
-  }                                                                           \
-  template <>                                                                 \
-  void bond_forces<D>(const CloudRun& run, bool turning) {                    \
-    turning ? turning_cloud_##D(run) : linear_cloud_##D(run);                 \
-  }                                                                           \
-  template <>                                                                 \
-  void bond_energies<D>(const GridRun& run, bool turning) {                   \
-    turning ? turning_energy_##D(run) : linear_energy_##D(run);               \
-  }                                                                           \
-  template <>                                                                 \
-  void bond_energies<D>(const CloudRun& run, bool turning) {                  \
-    turning ? cloud_run<D, true, true>(run) : cloud_run<D, false, true>(run); \
+#define PERIMODE_BOND_KERNELS(D)                              \
+  template <>                                                 \
+  void bond_forces<D>(const GridRun& run, bool turning) {     \
+    turning ? turning_grid_##D(run) : linear_grid_##D(run);   \
+  }                                                           \
+  template <>                                                 \
+  void bond_forces<D>(const CloudRun& run, bool turning) {    \
+    turning ? turning_cloud_##D(run) : linear_cloud_##D(run); \
   }
 PERIMODE_BOND_KERNELS(1)
 PERIMODE_BOND_KERNELS(2)

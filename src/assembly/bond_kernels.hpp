@@ -46,8 +46,9 @@ struct GridRun {
   int words = 0;                         ///< per particle
   Index count = 0;
   CellValues cells;
-  double* out = nullptr;  ///< forces: component a at a * out_stride; energies: J
+  double* out = nullptr;  ///< forces: component a at a * out_stride
   std::ptrdiff_t out_stride = 0;
+  double* energy = nullptr;  ///< of the bonds left alive, their share per particle, J; null: not asked
   std::vector<OverStretched>* broken = nullptr;
 };
 
@@ -66,6 +67,7 @@ struct CloudRun {
   Index count = 0;
   double* out = nullptr;
   std::ptrdiff_t out_stride = 0;
+  double* energy = nullptr;
   std::vector<OverStretched>* broken = nullptr;
 };
 
@@ -76,11 +78,5 @@ template <int Dim>
 void bond_forces(const GridRun& run, bool turning);
 template <int Dim>
 void bond_forces(const CloudRun& run, bool turning);
-
-/// Strain energies that count for the particles, J; nothing breaks.
-template <int Dim>
-void bond_energies(const GridRun& run, bool turning);
-template <int Dim>
-void bond_energies(const CloudRun& run, bool turning);
 
 }  // namespace perimode

@@ -61,7 +61,7 @@ class BondStepping final : public Integrator {
   void start(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override {
     step_ = 0;
     q_ = q;
-    find_force(v);
+    find_force(v, true);
     for (Index d = 0; d < n_; ++d) v_[d] = v[d] - 0.5 * dt_ * (force_[d] / motion_->mass[d] - rate(d) * v[d]);
     reaction_ = forces_->moving_force();
     work_ = damping_ = broken_ = {};
@@ -89,7 +89,7 @@ class BondStepping final : public Integrator {
     }
     const std::vector<double> given = forces_->moving_displacement();
     const Offset broken = forces_->broken();
-    find_force(v_);
+    find_force(v_, with_energies);
     if (forces_->broken() != broken) correct_broken_energy();
     for (std::size_t m = 0; m < given.size(); ++m) {
       work_.add(0.5 * (reaction_[m] + forces_->moving_force()[m]) *
@@ -181,8 +181,9 @@ class BondStepping final : public Integrator {
   }
 
   /// The force at q_n and the instant of step n; stiffness damping by velocity v.
-  void find_force(const Eigen::VectorXd& v) {
+  void find_force(const Eigen::VectorXd& v, bool with_energy) {
     forces_->set_time(time());
+    forces_->follow_energy(with_energy);
     forces_->product().apply(q_.data(), [&](const RowPiece& piece) {
       for (Index r = 0; r < piece.count; ++r) force_[piece.first + r] = -piece.y[r];
     });
@@ -229,7 +230,7 @@ class BondStepping final : public Integrator {
       const double v = velocity_at(d);
       return 0.5 * motion_->mass[d] * v * v;
     });
-    energies_.strain = forces_->strain_energy(q_.data());
+    energies_.strain = forces_->last_strain_energy();
     energies_.broken = forces_->broken_energy() + broken_.value();
     energies_.external_work = work_.value();
     energies_.damping = damping_.value();

@@ -322,7 +322,9 @@ void expect_slopes(const Model& model) {
     const double h = 1e-6;
     const Eigen::VectorXd up = q + h * direction, down = q - h * direction;
     const double slope = (forces.strain_energy(up.data()) - forces.strain_energy(down.data())) / (2.0 * h);
+    forces.follow_energy(true);
     EXPECT_NEAR(force(forces, q).dot(direction), slope, 1e-6 * std::abs(slope));
+    EXPECT_EQ(forces.last_strain_energy(), forces.strain_energy(q.data()));
     if (kinematics == Kinematics::linear) {
       const Eigen::MatrixXd u = Eigen::Map<const Eigen::VectorXd>(
           body.boundary.expand(q.data()).data(), static_cast<Eigen::Index>(body.boundary.free_number.size()));
@@ -441,6 +443,23 @@ TEST(BondForces, ABondBreaksOnceAndOnlyBeyondItsStretch) {
     EXPECT_EQ(force(forces, stretched(0.5)), Eigen::Vector2d::Zero());
     EXPECT_EQ(forces.broken(), 1);
     EXPECT_EQ(count_bonds(body.bonds, 2), 0);
+  }
+}
+
+/// At given displacements: with the bonds that an evaluation would break before it, without them after it.
+TEST(BondForces, StrainEnergyIsThatOfTheBondsAlive) {
+  Model m = box_model({14, 9}, 0.1, 3.0);
+  add_wall(m, 0, false, WallType::mirror);
+  for (const Kinematics kinematics : both) {
+    auto body = build_body<2>(m);
+    BondForces<2> forces(body, kinematics, {0.03});
+    const Eigen::VectorXd q = shaken(body, 1);
+    const double before = forces.strain_energy(q.data());
+    EXPECT_EQ(forces.broken(), 0);
+    (void)force(forces, q);
+    EXPECT_GT(forces.broken_energy(), 0.1 * before);
+    EXPECT_NEAR(forces.strain_energy(q.data()) + forces.broken_energy(), before, 1e-13 * before);
+    EXPECT_EQ(forces.last_broken_energy(q.data()), forces.broken_energy());
   }
 }
 
