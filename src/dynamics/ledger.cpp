@@ -69,13 +69,19 @@ Eigen::VectorXd saved(const IntegratorState& state, const std::string& name, Eig
   return Eigen::Map<const Eigen::VectorXd>(found->second.data(), size);
 }
 
-void save(const Ledger& ledger, IntegratorState& state) {
-  state.numbers["ledger"] = {ledger.work.sum, ledger.work.lost, ledger.damping.sum, ledger.damping.lost,
-                             ledger.initial};
+void save(const Ledger& ledger, double dt, IntegratorState& state) {
+  state.numbers["ledger"] = {ledger.work.sum,     ledger.work.lost, ledger.damping.sum,
+                             ledger.damping.lost, ledger.initial,   dt};
 }
 
-Ledger saved_ledger(const IntegratorState& state) {
-  const Eigen::VectorXd n = saved(state, "ledger", 5);
+Ledger saved_ledger(const IntegratorState& state, double dt) {
+  const Eigen::VectorXd n = saved(state, "ledger", 6);
+  if (n[5] != dt) {
+    invalid_input({fmt::format("a saved state of steps of {} s", dt),
+                   fmt::format("{} s", n[5]),
+                   "resume with the step the state was made by",
+                   {}});
+  }
   return {{n[0], n[1]}, {n[2], n[3]}, n[4]};
 }
 

@@ -34,8 +34,9 @@ struct Ledger {
   [[nodiscard]] Energies with(double kinetic, double strain) const;
 };
 
-void save(const Ledger& ledger, IntegratorState& state);
-[[nodiscard]] Ledger saved_ledger(const IntegratorState& state);
+void save(const Ledger& ledger, double dt, IntegratorState& state);
+/// Throws invalid_input where the state is none of this kind, or one of another step.
+[[nodiscard]] Ledger saved_ledger(const IntegratorState& state, double dt);
 
 void save(const std::string& name, const Eigen::VectorXd& x, IntegratorState& state);
 /// Throws invalid_input where the state has no numbers of that name and size.

@@ -191,7 +191,7 @@ class ModalSuperposition final : public Integrator {
       perimode::save(std::string(name) + "_rest", narrow(low), state);
     }
     perimode::save("h", h_, state);
-    perimode::save(ledger_, state);
+    perimode::save(ledger_, dt_, state);
     return state;
   }
 
@@ -203,7 +203,7 @@ class ModalSuperposition final : public Integrator {
       for (std::size_t j = 0; j < x->size(); ++j) (*x)[j] += low[static_cast<Eigen::Index>(j)];
     }
     h_ = saved(state, "h", load_.rows());
-    ledger_ = saved_ledger(state);
+    ledger_ = saved_ledger(state, dt_);
     step_ = state.step;
     current_ = false;
     update_energies();

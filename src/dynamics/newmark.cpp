@@ -107,7 +107,7 @@ class Newmark final : public Integrator {
     perimode::save("dv", dv_, state);
     perimode::save("h", h_, state);
     perimode::save("dh", dh_, state);
-    perimode::save(ledger_, state);
+    perimode::save(ledger_, dt_, state);
     return state;
   }
 
@@ -120,7 +120,7 @@ class Newmark final : public Integrator {
     const auto terms = static_cast<Eigen::Index>(motion_->force.size());
     h_ = saved(state, "h", terms);
     dh_ = saved(state, "dh", terms);
-    ledger_ = saved_ledger(state);
+    ledger_ = saved_ledger(state, dt_);
     step_ = state.step;
     update_energies();
   }

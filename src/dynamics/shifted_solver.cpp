@@ -20,10 +20,15 @@ namespace perimode {
 
 namespace {
 
-/// Iterations of block-Jacobi conjugate gradients in a step, from the acceleration of the last one: counted
-/// for squares and cubes, tests/bench/bench_implicit.cpp.
-double cg_iterations(double ratio, double tolerance) {
-  return 2.0 + 0.25 * (1.0 + ratio) * std::log(2.0 / tolerance);
+/// Iterations of block-Jacobi conjugate gradients in a step: as many as the step is long beside the stable
+/// one, unless the body itself is better conditioned (as for statics: its length in horizons). Counted for
+/// squares and cubes, tests/bench/bench_implicit.cpp.
+template <int Dim>
+double cg_iterations(const Body<Dim>& body, double ratio, double tolerance) {
+  const double digits = std::log(2.0 / tolerance);
+  const double by_step = 2.0 + 0.46 * ratio * digits;
+  const double by_body = 0.7 * std::max(1.0, horizons_long(body)) * digits;
+  return 1.0 / std::hypot(1.0 / by_step, 1.0 / by_body);
 }
 
 /// Bytes per dof that an iteration moves: vectors, block Jacobi, the operator and, where that stores next to
@@ -50,7 +55,7 @@ template <int Dim>
 Choice automatic(const Body<Dim>& body, double ratio, double tolerance) {
   if (Dim == 1) return {ImplicitSolver::factor, "the factor of a bar is a narrow band"};
   const double dofs = body.boundary.free;
-  const double iterations = cg_iterations(ratio, tolerance);
+  const double iterations = cg_iterations(body, ratio, tolerance);
   const double moved = iterations * bytes_per_iteration(body);
   const std::string cg =
       fmt::format("about {:.0f} iterations move {:.1f} kB per dof and step", iterations, 1e-3 * moved);

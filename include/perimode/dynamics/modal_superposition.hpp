@@ -15,7 +15,8 @@ struct Truncation {
 };
 
 /// q = sum_k phi_k y_k(t) with the exact response of every mode to loads that vary linearly within a step
-/// (exact for free vibration, constant and ramp loads, any dt). `modes` are columns with phi^T M phi = 1 and
+/// (exact for free vibration, constant and ramp loads, any dt), and energies likewise. Displacements are made
+/// of the modes only when asked for. `modes` are columns with phi^T M phi = 1 and
 /// `lambda` their eigenvalues (rad/s)^2, rigid modes (0) included. Damping must be modal: Rayleigh's.
 /// Throws invalid_input: unsymmetric K, nodal damping or sponges.
 [[nodiscard]] std::unique_ptr<Integrator> modal_superposition(const Motion& motion, double dt,

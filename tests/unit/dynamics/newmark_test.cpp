@@ -261,6 +261,10 @@ TEST(Newmark, RefusesParametersAndStatesThatAreNotItsOwn) {
   EXPECT_THROW((void)make(far, 0.1), Error);
   EXPECT_THROW((void)make({}, 0.0), Error);
   EXPECT_THROW(make({}, 0.1)->restore({}), Error);
+  const auto whole = make({}, 0.1);
+  whole->start(one(1.0), one(0.0));
+  EXPECT_NO_THROW(make({}, 0.1)->restore(whole->save()));
+  EXPECT_THROW(make({}, 0.2)->restore(whole->save()), Error);
 }
 
 /// A body without symmetry of its equations against the equations of the scheme written out densely.
