@@ -89,10 +89,35 @@ RowPiece rows_of(const Stencil<Dim>& s, const ParticleRun& of, Index begin, Inde
           nullptr};
 }
 
+/// Numbers that will be wanted soon, fetched a few at a time while others are worked on.
+struct Fetch {
+  const double* at = nullptr;
+  const double* end = nullptr;
+
+  void next(std::ptrdiff_t count) {
+    constexpr std::ptrdiff_t line = 8;
+    const double* to = at + std::min(count, end - at);
+    for (; at < to; at += std::min(line, end - at)) __builtin_prefetch(at);
+  }
+};
+
+/// Displacements of the free particles of a padded layer.
+template <int Dim>
+Fetch fetch_layer(const Stencil<Dim>& s, Index layer, const double* x) {
+  Fetch fetch;
+  for (Index r = s.layer_fill[layer]; r < s.layer_fill[layer + 1]; ++r) {
+    const FillRun& run = s.fill[r];
+    if (run.what != FillRun::What::free) continue;
+    if (fetch.at == nullptr) fetch.at = x + run.first;
+    fetch.end = x + run.first + static_cast<std::ptrdiff_t>(run.count) * Dim;
+  }
+  return fetch;
+}
+
 /// Rows of K of one layer of particles; emit(run, piece of it, K u) takes them.
 template <int Dim, class Emit>
-void apply_layer(const Stencil<Dim>& s, Index layer, const double* here, typename Stencil<Dim>::Work& work,
-                 const Emit& emit) {
+void apply_layer(const Stencil<Dim>& s, Index layer, const double* here, Fetch fetch,
+                 typename Stencil<Dim>::Work& work, const Emit& emit) {
   StencilPairs pairs{s.pair.data(), {}, s.bonds->family.size() - 1};
   std::copy(s.pair_start.begin(), s.pair_start.end(), pairs.start);
   for (Index r = s.layer_run[layer]; r < s.layer_run[layer + 1]; ++r) {
@@ -107,6 +132,7 @@ void apply_layer(const Stencil<Dim>& s, Index layer, const double* here, typenam
                            .count = std::min(stencil_piece, of.count - begin),
                            .out = work.out.data(),
                            .out_stride = stencil_piece + stencil_slack};
+      fetch.next(static_cast<std::ptrdiff_t>(run.count) * Dim);
       if (of.families == Families::whole) {
         whole_families<Dim>(pairs, run);
       } else if (of.families == Families::partial) {
@@ -161,7 +187,8 @@ void apply_layers(const Reach<Dim>& reach, const double* x, const Emit& emit) {
       const Index across = Dim > 1 ? family.offset[k][Dim - 1] : 0;
       work.at[k] = work.layer[s.reach + across] + (s.bonds->step[k] - across * s.layer_cells);
     }
-    apply_layer(s, layer, work.layer[s.reach], work, emit);
+    const Fetch fetch = next + 1 < reach.end + s.reach ? fetch_layer(s, next + 1, x) : Fetch{};
+    apply_layer(s, layer, work.layer[s.reach], fetch, work, emit);
   }
 }
 

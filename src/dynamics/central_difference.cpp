@@ -235,6 +235,7 @@ class CentralDifference final : public Integrator {
                                  const Eigen::VectorXd& lag) const {
     const PieceRows& common = rows_[static_cast<std::size_t>(rows.piece)];
     return {.count = rows.count,
+            .ahead = std::min(rows.count, motion_->stiffness.size - rows.first - rows.count),
             .dt = dt_,
             .y = rows.y,
             .q = q_.data() + rows.first,

@@ -64,12 +64,15 @@ template <class Step>
   const StepRows r = rows;  // of its own: the stores below may change anything else
   VectorSums sums;
   const std::ptrdiff_t whole = r.count / width * width;
-  for (std::ptrdiff_t i = 0; i < whole; i += width) step(r, i, sums);
+  for (std::ptrdiff_t i = 0; i < whole; i += width) {
+    if (i < r.ahead) __builtin_prefetch(r.v + r.count + i, 1);
+    step(r, i, sums);
+  }
   if (const std::ptrdiff_t left = r.count - whole; left > 0) {
     double y[width] = {}, q[width] = {}, v[width] = {}, next[width], mass[width], rate[width] = {},
            lag[width] = {};
     std::fill_n(mass, width, 1.0);
-    StepRows last{width, r.dt, y, q, v, next, r.one_mass, nullptr, nullptr, nullptr};
+    StepRows last{width, 0, r.dt, y, q, v, next, r.one_mass, nullptr, nullptr, nullptr};
     const auto take = [&](const double* from, double* to) {
       if (from == nullptr) return static_cast<double*>(nullptr);
       std::copy_n(from + whole, left, to);

@@ -9,6 +9,7 @@ namespace perimode {
 ///   v_+ = ((1 - r dt/2) v - (dt/m) (y + lag)) / (1 + r dt/2),   next = q + dt v_+.
 struct StepRows {
   Index count = 0;
+  Index ahead = 0;  ///< so many rows more will be wanted next: their v is fetched on the way
   double dt = 0.0;
   const double* y = nullptr;  ///< K q minus forces
   const double* q = nullptr;
