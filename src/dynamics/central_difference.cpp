@@ -269,7 +269,6 @@ class CentralDifference final : public Integrator {
   }
 
   void step_piece(const RowPiece& rows, double* next, bool with_energies) {
-    PieceSums sum;
     double power = 0.0, forced = 0.0;
     double* v = v_.data() + rows.first;
     next += rows.first;
