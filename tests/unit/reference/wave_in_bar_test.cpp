@@ -110,7 +110,7 @@ TEST(WaveInBar, SnappedBarIsTheSeriesSummed) {
     return 4.0 / pi * sum;
   };
   for (const double x : {0.0, 0.7, 1.3})
-    for (const double t : {0.05, 0.3, 0.95, 1.45, 2.2, 5.1})
+    for (const double t : {0.05, 0.3, 0.95, 1.45, 2.2, 5.3})
       EXPECT_NEAR(snapped_bar_strain(length, speed, x, t), series(x, t), 1e-3);  // rest of the series
   EXPECT_EQ(snapped_bar_strain(1.0, 1.0, 0.5, 0.5), 0.5);                        // at the jump
 }
