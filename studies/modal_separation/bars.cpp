@@ -61,8 +61,9 @@ void run_bar(const std::string& name, double horizon, int ratio, Results& result
   std::string why_not;
   const auto exact = closed_form_modes(model, bar_modes + 1, why_not);
 
-  for (int n = 1; n <= bar_modes; ++n) {
-    const int i = n - 1 + modes.rigid_modes;
+  for (int mode = 1; mode <= bar_modes; ++mode) {
+    const double n = mode;
+    const int i = mode - 1 + modes.rigid_modes;
     const double omega = modes.angular_frequency[i];
     const double k = (n - kind->shift) * std::numbers::pi;
     const double separation = speed * std::sqrt(scabbia_lambda(horizon, k));
@@ -82,7 +83,8 @@ void run_bar(const std::string& name, double horizon, int ratio, Results& result
 
 void derive(const std::vector<double>& horizons, const std::vector<int>& ratios, Results& results) {
   for (const double horizon : horizons) {
-    for (int n = 1; n <= bar_modes; ++n) {
+    for (int mode = 1; mode <= bar_modes; ++mode) {
+      const double n = mode;
       for (const std::string& name : bar_names()) {
         for (std::size_t r = 1; r < ratios.size(); ++r) {
           const auto coarse = results.find({"error", name, horizon, ratios[r - 1], n});

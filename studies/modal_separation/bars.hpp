@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "results.hpp"
+#include "studies/common/results.hpp"
 
 namespace perimode::studies {
 

@@ -86,11 +86,7 @@ int main(int argc, char** argv) {
     }
     Comparison comparison = compare(results, expected);
     for (const std::string& rule : broken_rules(results)) comparison.different.push_back(rule);
-    fmt::print("\n{} of {} expected numbers compared, {} disagreements\n", comparison.compared,
-               expected.size(), comparison.different.size());
-    for (const std::string& line : comparison.different) fmt::print("  {}\n", line);
-    const bool complete = comparison.compared > 0 && (coarse || comparison.missing == 0);
-    return comparison.different.empty() && complete ? 0 : 1;
+    return report_comparison(comparison, expected, coarse);
   } catch (const std::exception& error) {
     fmt::print(stderr, "modal_separation: {}\n", error.what());
     return 1;

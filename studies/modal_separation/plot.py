@@ -19,7 +19,7 @@ MARKERS = {"odd": "o", "odd-even": "^", "surface_nodes": "s", "free": "v", "zero
 
 def read(file):
     with open(file, newline="") as lines:
-        return {(r["quantity"], r["body"], round(float(r["horizon"]), 6), int(r["ratio"]), int(r["mode"])):
+        return {(r["quantity"], r["body"], round(float(r["horizon"]), 6), int(r["ratio"]), int(r["at"])):
                 float(r["value"]) for r in csv.DictReader(lines)}
 
 

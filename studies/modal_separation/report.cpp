@@ -13,18 +13,8 @@ namespace {
 
 constexpr std::array<int, 7> listed = {1, 2, 3, 5, 10, 15, 20};
 
-std::string value_text(const Results& results, const Key& key, const char* format) {
-  const auto found = results.find(key);
-  return found == results.end() ? "-" : fmt::format(fmt::runtime(format), found->second);
-}
-
-std::string expected_text(const ExpectedResults& expected, const Key& key, const char* format) {
-  const auto found = expected.find(key);
-  return found == expected.end() ? "" : fmt::format(fmt::runtime(format), found->second.value);
-}
-
 /// One line of the listed modes; none if all cells are empty.
-void print_line(const std::string& head, const std::function<std::string(int)>& cell) {
+void print_line(const std::string& head, const std::function<std::string(double)>& cell) {
   std::string line;
   bool empty = true;
   for (const int mode : listed) {
@@ -37,7 +27,7 @@ void print_line(const std::string& head, const std::function<std::string(int)>& 
 
 void print_modes_header(const std::string& title) {
   fmt::print("\n{}\n", title);
-  print_line("mode", [](int mode) { return fmt::to_string(mode); });
+  print_line("mode", [](double mode) { return fmt::format("{:g}", mode); });
 }
 
 }  // namespace
@@ -46,15 +36,15 @@ void print_bar(const std::string& name, double horizon, const std::vector<int>& 
                const Results& results, const ExpectedResults& expected) {
   print_modes_header(fmt::format("{}, horizon {}: frequency / separation of variables - 1", name, horizon));
   for (const int m : ratios) {
-    print_line(fmt::format("m = {}", m), [&](int mode) {
-      return value_text(results, {"error", name, horizon, m, mode}, "{:.4e}");
+    print_line(fmt::format("m = {}", m), [&](double mode) {
+      return text(results, {"error", name, horizon, m, mode}, "{:.4e}");
     });
-    print_line("  expected", [&](int mode) {
-      return expected_text(expected, {"error", name, horizon, m, mode}, "{:.4e}");
+    print_line("  expected", [&](double mode) {
+      return text(expected, {"error", name, horizon, m, mode}, "{:.4e}");
     });
     if (m != ratios.front())
-      print_line("  order", [&](int mode) {
-        return value_text(results, {"order", name, horizon, m, mode}, "{:.2f}");
+      print_line("  order", [&](double mode) {
+        return text(results, {"order", name, horizon, m, mode}, "{:.2f}");
       });
   }
 }
@@ -64,19 +54,19 @@ void print_surface_nodes(double horizon, const std::vector<int>& ratios, const R
   const std::string name = "surface_nodes";
   print_modes_header(fmt::format("surface nodes / odd walls - 1, horizon {}", horizon));
   for (const int m : ratios) {
-    print_line(fmt::format("m = {}", m), [&](int mode) {
-      return value_text(results, {"bias", name, horizon, m, mode}, "{:+.2e}");
+    print_line(fmt::format("m = {}", m), [&](double mode) {
+      return text(results, {"bias", name, horizon, m, mode}, "{:+.2e}");
     });
-    print_line("  expected", [&](int mode) {
-      return expected_text(expected, {"bias", name, horizon, m, mode}, "{:+.2e}");
+    print_line("  expected", [&](double mode) {
+      return text(expected, {"bias", name, horizon, m, mode}, "{:+.2e}");
     });
   }
   fmt::print("\nspectrum of the surface nodes, all modes\n{:<12}{:>22}{:>34}\n", "", "max|K - K'| / max|K|",
              "max|Im lambda| / max|lambda|");
   for (const int m : ratios)
     fmt::print("{:<12}{:>22}{:>34}\n", fmt::format("m = {}", m),
-               value_text(results, {"asymmetry", name, horizon, m, 0}, "{:.3f}"),
-               value_text(results, {"imaginary", name, horizon, m, 0}, "{:.1e}"));
+               text(results, {"asymmetry", name, horizon, m, 0}, "{:.3f}"),
+               text(results, {"imaginary", name, horizon, m, 0}, "{:.1e}"));
 }
 
 void print_horizons(const std::string& name, const std::vector<double>& horizons, int ratio,
@@ -86,8 +76,8 @@ void print_horizons(const std::string& name, const std::vector<double>& horizons
   for (const double horizon : horizons) {
     fmt::print("{:<12}", horizon);
     for (const char* quantity : {"error", "classical_error"})
-      for (const int mode : {1, 5})
-        fmt::print("{:>13}", value_text(results, {quantity, name, horizon, ratio, mode}, "{:.4e}"));
+      for (const double mode : {1.0, 5.0})
+        fmt::print("{:>13}", text(results, {quantity, name, horizon, ratio, mode}, "{:.4e}"));
     fmt::print("\n");
   }
 }
@@ -102,10 +92,10 @@ void print_plates(const std::vector<int>& ratios, const Results& results, const 
       for (const int m : ratios) {
         const Key omega = {"omega", wave, plate_horizon, m, 1};
         fmt::print("{:<21}{:>4}{:>16}{:>15}{:>15}{:>15}{:>12}\n", wave, m,
-                   value_text(results, {"discrete_error", name, plate_horizon, m, 0}, "{:.1e}"),
-                   value_text(results, omega, "{:.10f}"), expected_text(expected, omega, "{:.10f}"),
-                   value_text(results, {"continuum", wave, plate_horizon, 0, 1}, "{:.10f}"),
-                   value_text(results, {"error", wave, plate_horizon, m, 1}, "{:+.2e}"));
+                   text(results, {"discrete_error", name, plate_horizon, m, 0}, "{:.1e}"),
+                   text(results, omega, "{:.10f}"), text(expected, omega, "{:.10f}"),
+                   text(results, {"continuum", wave, plate_horizon, 0, 1}, "{:.10f}"),
+                   text(results, {"error", wave, plate_horizon, m, 1}, "{:+.2e}"));
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "results.hpp"
+#include "studies/common/results.hpp"
 
 namespace perimode::studies {
 

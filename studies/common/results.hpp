@@ -4,19 +4,18 @@
 #include <compare>
 #include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace perimode::studies {
 
-/// Names one number of the study.
+/// Names one number of a study.
 struct Key {
   std::string quantity;  ///< "omega", "error", ...
   std::string body;      ///< "odd", "surface_nodes self_cell", "mirror constant S", ...
   double horizon = 0.0;
-  int ratio = 0;  ///< m = horizon / spacing; 0: of the continuum
-  int mode = 0;   ///< 0: of all modes
+  int ratio = 0;    ///< m = horizon / spacing; 0: of the continuum
+  double at = 0.0;  ///< mode, instant or place the study names; 0: of all
   auto operator<=>(const Key&) const = default;
 };
 
@@ -24,12 +23,13 @@ using Results = std::map<Key, double>;
 
 struct Expected {
   double value = 0.0;
-  double tolerance = 0.0;  ///< relative
+  double relative = 0.0;  ///< |found - value| <= relative |value| + absolute
+  double absolute = 0.0;
   std::string source;
 };
 using ExpectedResults = std::map<Key, Expected>;
 
-/// Reads a table with the columns of Key, then value, tolerance and source.
+/// Reads a table with the columns of Key, then value, relative, absolute and source.
 /// Throws invalid_input for any other file.
 [[nodiscard]] ExpectedResults read_expected(const std::filesystem::path& file);
 
@@ -42,5 +42,15 @@ struct Comparison {
   std::vector<std::string> different;  ///< one line for each disagreement
 };
 [[nodiscard]] Comparison compare(const Results& results, const ExpectedResults& expected);
+
+/// Prints the comparison and returns the exit code of a study: 0 where all that was compared agrees and
+/// nothing is missing (`coarse`: something was compared), else 1.
+[[nodiscard]] int report_comparison(const Comparison& comparison, const ExpectedResults& expected,
+                                    bool coarse);
+
+/// The number as text, "-" where there is none.
+[[nodiscard]] std::string text(const Results& results, const Key& key, const char* format);
+/// The expected number as text, "" where there is none.
+[[nodiscard]] std::string text(const ExpectedResults& expected, const Key& key, const char* format);
 
 }  // namespace perimode::studies
