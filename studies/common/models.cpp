@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "studies/common/models.hpp"
 
+#include <cmath>
+
 namespace perimode::studies {
 namespace {
 
@@ -46,6 +48,46 @@ Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wal
   model.volume_correction = VolumeCorrection::linear;
   for (const int axis : {0, 1})
     for (const bool upper : {false, true}) add_wall(model, axis, upper, wall);
+  return model;
+}
+
+Model steel_bar(int cells, int ratio, Micromodulus kernel, VolumeCorrection correction,
+                Calibration calibration, const BarEnds& ends) {
+  Model model = separable_bar(static_cast<double>(ratio) / cells, ratio, ends);
+  std::get<GridSpec>(model.particles).spacing = 1.0 / cells;
+  model.area = 1e-6;
+  model.material.youngs_modulus = 200e9;
+  model.material.density = 7850.0;
+  model.material.micromodulus = kernel;
+  model.volume_correction = correction;
+  model.calibration = calibration;
+  return model;
+}
+
+Model pmb_lattice(const std::vector<int>& cells, double spacing, int squared_ratio, Calibration calibration) {
+  Model model;
+  model.dimension = static_cast<int>(cells.size());
+  model.plane = Plane::strain;
+  GridSpec grid;
+  grid.spacing = spacing;
+  for (const int n : cells) {
+    grid.lower.push_back(0.0);
+    grid.upper.push_back(n * spacing);
+  }
+  model.particles = grid;
+  model.horizon = {HorizonSpec::Rule::ratio, std::sqrt(squared_ratio), {}};
+  model.material.youngs_modulus = 1.5;
+  model.material.density = 1.0;
+  model.material.micromodulus.kernel = Kernel::inverse_distance;
+  model.calibration = calibration;
+  return model;
+}
+
+Model pmb_row(int cells, int squared_ratio, Calibration calibration, bool periodic) {
+  Model model = pmb_lattice({cells, 1, 1}, 1.0 / cells, squared_ratio, calibration);
+  model.periodic = {periodic, true, true};
+  if (!periodic)
+    for (const bool upper : {false, true}) add_wall(model, 0, upper, WallType::antimirror);
   return model;
 }
 
