@@ -33,6 +33,12 @@ Model separable_bar(double horizon, int ratio, const BarEnds& ends, bool self_ce
   return model;
 }
 
+double scabbia_pulse(double x) { return 0.02 * std::exp(-100.0 * (x - 0.5) * (x - 0.5)); }
+
+std::vector<StandingWave> scabbia_series(const DispersionRelation& omega) {
+  return released_pulse(1.0, 0.02, 0.5, 0.1, 79, omega);
+}
+
 Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wall) {
   Model model;
   model.dimension = 2;

@@ -14,13 +14,14 @@ namespace perimode::studies {
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd along_x(const Body<Dim>& body, const std::function<double(double)>& u);
 
-/// Displacements (point-major) at the given instants (ascending, whole numbers of steps) of a body that is let
-/// go from u0 at rest and stepped by central differences.
+/// Displacements (point-major) at the given instants (ascending, whole numbers of steps) of a body that is
+/// let go from u0 at rest and stepped by central differences.
 template <int Dim>
 [[nodiscard]] std::vector<Eigen::VectorXd> release(Body<Dim>& body, const Eigen::VectorXd& u0, double dt,
                                                    const std::vector<double>& times);
 
-/// Strain between the cells on both sides of `x` at every step from 0 to `end` of a bar that is let go likewise.
+/// Strain between the cells on both sides of `x` at every step from 0 to `end` of a bar that is let go
+/// likewise.
 [[nodiscard]] std::vector<double> strain_history(Body<1>& bar, const Eigen::VectorXd& u0, double dt,
                                                  double end, double x);
 
