@@ -66,10 +66,12 @@ std::vector<Eigen::VectorXd> release(Body<Dim>& body, const Eigen::VectorXd& u0,
   return fields;
 }
 
-std::vector<double> strain_history(Body<1>& bar, const Eigen::VectorXd& u0, double dt, double end, double x) {
+std::vector<double> strain_history(Body<1>& bar, const Eigen::VectorXd& u0, double dt, double end, int every,
+                                   double x) {
   TransientOptions options;
   options.dt = dt;
   options.end = end;
+  options.history_every = every;
   options.probes = {strain_across(bar, x)};
   std::vector<double> strain;
   TransientObserver<1> observer;

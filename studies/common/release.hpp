@@ -20,10 +20,10 @@ template <int Dim>
 [[nodiscard]] std::vector<Eigen::VectorXd> release(Body<Dim>& body, const Eigen::VectorXd& u0, double dt,
                                                    const std::vector<double>& times);
 
-/// Strain between the cells on both sides of `x` at every step from 0 to `end` of a bar that is let go
-/// likewise.
+/// Strain between the cells on both sides of `x` of a bar that is let go likewise, at every `every`-th step
+/// from 0 on and at `end`.
 [[nodiscard]] std::vector<double> strain_history(Body<1>& bar, const Eigen::VectorXd& u0, double dt,
-                                                 double end, double x);
+                                                 double end, int every, double x);
 
 /// omega(k) of waves along x in the lattice of a model, pressure waves (its calibration, kernel and volume
 /// correction; the family complete).

@@ -39,8 +39,8 @@ const std::vector<double>& pulse_times() {
 }
 
 void run_bar(const BarRun& run, Results& results, Table* profiles) {
-  const Model model =
-      separable_bar(pulse_horizon, run.ratio, ends_of(run.name), run.name.ends_with("self_cell"));
+  const Model model = separable_bar(pulse_horizon, run.ratio, ends_of(run.name),
+                                    run.name.find("self_cell") != std::string::npos);
   Body<1> body = build_body<1>(model);
   const Eigen::VectorXd u0 = along_x(body, scabbia_pulse);
   const auto fields = release(body, u0, run.dt, run.times);

@@ -15,8 +15,8 @@ inline constexpr double pulse_step = 2e-7;    // s, that of [scabbia2023]
 /// The instants of [scabbia2023] fig. 5, s.
 [[nodiscard]] const std::vector<double>& pulse_times();
 
-/// One bar: ends "surface_nodes", "odd", "zero_layer" or "free", each also with " self_cell"; `ratio` cells
-/// per horizon, time step `dt`.
+/// One bar: ends "surface_nodes", "odd", "zero_layer" or "free", each also with " self_cell" and any words
+/// after; `ratio` cells per horizon, time step `dt`.
 struct BarRun {
   std::string name;
   int ratio = 10;
