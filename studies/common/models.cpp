@@ -11,6 +11,18 @@ void add_wall(Model& model, int axis, bool upper, WallType type) {
   condition.what = Wall{{axis, upper}, type, {}};
 }
 
+/// Bulk modulus and density 1, bonds of energy density c s^2/2.
+Model pmb_solid(int dimension, Calibration calibration) {
+  Model model;
+  model.dimension = dimension;
+  model.plane = Plane::strain;
+  model.material.youngs_modulus = 1.5;
+  model.material.density = 1.0;
+  model.material.micromodulus.kernel = Kernel::inverse_distance;
+  model.calibration = calibration;
+  return model;
+}
+
 }  // namespace
 
 Model separable_bar(double horizon, int ratio, const BarEnds& ends, bool self_cell) {
@@ -71,9 +83,7 @@ Model steel_bar(int cells, int ratio, Micromodulus kernel, VolumeCorrection corr
 }
 
 Model pmb_lattice(const std::vector<int>& cells, double spacing, int squared_ratio, Calibration calibration) {
-  Model model;
-  model.dimension = static_cast<int>(cells.size());
-  model.plane = Plane::strain;
+  Model model = pmb_solid(static_cast<int>(cells.size()), calibration);
   GridSpec grid;
   grid.spacing = spacing;
   for (const int n : cells) {
@@ -82,10 +92,6 @@ Model pmb_lattice(const std::vector<int>& cells, double spacing, int squared_rat
   }
   model.particles = grid;
   model.horizon = {HorizonSpec::Rule::ratio, std::sqrt(squared_ratio), {}};
-  model.material.youngs_modulus = 1.5;
-  model.material.density = 1.0;
-  model.material.micromodulus.kernel = Kernel::inverse_distance;
-  model.calibration = calibration;
   return model;
 }
 
@@ -96,5 +102,17 @@ Model pmb_row(int cells, int squared_ratio, Calibration calibration, bool period
     for (const bool upper : {false, true}) add_wall(model, 0, upper, WallType::antimirror);
   return model;
 }
+
+Model pmb_cloud(const std::filesystem::path& file, int neighbours) {
+  Model model = pmb_solid(3, Calibration::discrete);
+  model.particles = CloudSpec{file, {}};
+  model.horizon = {HorizonSpec::Rule::neighbours, static_cast<double>(neighbours), {}};
+  constexpr double beyond = 10.0;
+  const Region everywhere = {BoxRegion{{-beyond, -beyond, -beyond}, {beyond, beyond, beyond}}, {}};
+  model.boundary.push_back({Fix{{1, 2}, everywhere}, {}});
+  return model;
+}
+
+double pmb_speed() { return std::sqrt(1.8); }
 
 }  // namespace perimode::studies

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -44,5 +45,13 @@ using BarEnds = std::pair<std::optional<WallType>, std::optional<WallType>>;
 /// lattice that move along x. Antimirror walls at its ends (their motion is even about them), or periodic in
 /// x.
 [[nodiscard]] Model pmb_row(int cells, int squared_ratio, Calibration calibration, bool periodic = false);
+
+/// A bar of that solid over 0 <= x <= 1 made of a file's particles, each with a horizon that holds its
+/// `neighbours` nearest, constants normalised, that moves along x alone (u_y = u_z = 0): pressure waves
+/// between free ends.
+[[nodiscard]] Model pmb_cloud(const std::filesystem::path& file, int neighbours);
+
+/// Speed of pressure waves of that solid in three dimensions, sqrt(1.8 K/rho), m/s.
+[[nodiscard]] double pmb_speed();
 
 }  // namespace perimode::studies

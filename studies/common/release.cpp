@@ -2,8 +2,7 @@
 #include "studies/common/release.hpp"
 
 #include <cmath>
-#include <memory>
-#include <string>
+#include <limits>
 
 #include "perimode/dynamics/transient.hpp"
 #include "perimode/reference/plane_wave.hpp"
@@ -11,7 +10,6 @@
 namespace perimode::studies {
 namespace {
 
-/// A particle probe or strain probe needs a name only.
 TransientProbe strain_across(const Body<1>& bar, double x) {
   const double half = 0.5 * bar.particles.grid->spacing;
   TransientProbe probe;
@@ -57,7 +55,7 @@ std::vector<Eigen::VectorXd> release(Body<Dim>& body, const Eigen::VectorXd& u0,
   TransientOptions options;
   options.dt = dt;
   options.end = times.back();
-  options.history_every = static_cast<int>(std::lround(options.end / dt));
+  options.history_every = std::numeric_limits<int>::max();
   options.fields_at = times;
   std::vector<Eigen::VectorXd> fields;
   TransientObserver<Dim> observer;

@@ -14,6 +14,9 @@ namespace perimode::studies {
 template <int Dim>
 [[nodiscard]] Eigen::VectorXd along_x(const Body<Dim>& body, const std::function<double(double)>& u);
 
+/// In place of a step: nine tenths of the stable one, shortened to hit the last instant.
+inline constexpr double automatic_step = 0.0;
+
 /// Displacements (point-major) at the given instants (ascending, whole numbers of steps) of a body that is
 /// let go from u0 at rest and stepped by central differences.
 template <int Dim>
