@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# run.sh BUILD OUT: the whole study, the finer meshes it needs and its picture, OUT/ganzenmueller2013.png.
+set -euo pipefail
+if [[ $# -ne 2 ]]; then
+  echo "usage: $0 BUILD OUT" >&2
+  exit 2
+fi
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+python=$("$here/../../scripts/find_python.sh")
+mkdir -p "$2"
+"$python" "$here/mesh.py" "$2"
+"$1/studies/ganzenmueller2013/ganzenmueller2013" "$here/expected.csv" "$here/bar.msh" "$2/bar_1.msh" "$2/bar_2.msh" --out "$2"
+"$python" "$here/plot.py" "$2"
