@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Tetrahedra of a bar 1 x 0.1 x 0.1, strongly graded, in Gmsh's format 2.2.
 
-mesh.py OUT            OUT/bar_1.msh and OUT/bar_2.msh: bar.msh beside this script, each tetrahedron split in 8, and again
+mesh.py OUT            OUT/bar_1.msh and OUT/bar_2.msh: bar.msh beside this script, each tetrahedron split in 8, and again;
+                       OUT/bar_0.csv, OUT/bar_1.csv, OUT/bar_2.csv: centroids and volumes of the three
 mesh.py --new FILE     a new mesh as FILE: Delaunay's of random points of a fixed seed, some in tight clusters
                        (needs scipy); bar.msh was made so
 """
@@ -47,6 +48,13 @@ def write(file, nodes, tetrahedra):
         out.write("$EndElements\n")
 
 
+def write_cloud(file, nodes, tetrahedra):
+    with open(file, "w", newline="\n") as out:
+        out.write("x,y,z,volume\n")
+        out.writelines(f"{x:.17g},{y:.17g},{z:.17g},{v:.17g}\n"
+                       for (x, y, z), v in zip(nodes[tetrahedra].mean(axis=1), volumes(nodes, tetrahedra)))
+
+
 def split(nodes, tetrahedra):
     """Each tetrahedron as 8 of an eighth of its volume; the octahedron in its middle is cut along its shortest diagonal."""
     middle, points = {}, [tuple(p) for p in nodes]
@@ -76,10 +84,10 @@ def new_mesh():
     faces[np.arange(ON_FACES), axis] = random.integers(0, 2, ON_FACES)
     edges = np.array([[x, y, z] for x in np.linspace(0.0, 1.0, 12) for y in (0.0, 1.0) for z in (0.0, 1.0)])
     points = np.vstack([inside, faces, edges]) * SIZE
-    # Every eighth inner point becomes a cluster of four, 1/50 to 1/2 of the spacing wide.
+    # Every eighth inner point becomes a cluster of four, 1/20 to 1/2 of the spacing wide.
     spacing = (SIZE.prod() / INSIDE) ** (1 / 3)
     near = np.repeat(inside[::8] * SIZE, 3, axis=0)
-    width = np.repeat(0.02 * 25.0 ** random.random(len(inside[::8])), 3)
+    width = np.repeat(0.05 * 10.0 ** random.random(len(inside[::8])), 3)
     direction = random.normal(size=near.shape)
     direction /= np.linalg.norm(direction, axis=1)[:, None]
     companions = near + direction * (spacing * width)[:, None]
@@ -104,10 +112,13 @@ def main(words):
     if len(words) != 1:
         sys.exit(__doc__)
     nodes, tetrahedra = read(Path(__file__).parent / "bar.msh")
+    out = Path(words[0])
     describe("bar.msh", nodes, tetrahedra)
+    write_cloud(out / "bar_0.csv", nodes, tetrahedra)
     for level in (1, 2):
         nodes, tetrahedra = split(nodes, tetrahedra)
-        write(Path(words[0]) / f"bar_{level}.msh", nodes, tetrahedra)
+        write(out / f"bar_{level}.msh", nodes, tetrahedra)
+        write_cloud(out / f"bar_{level}.csv", nodes, tetrahedra)
         describe(f"bar_{level}.msh", nodes, tetrahedra)
 
 
