@@ -114,6 +114,29 @@ TEST(Exodus, StepsReadBackWithTimesGlobalsAndVectors) {
   EXPECT_STREQ(name.data(), "displacement_z");
 }
 
+TEST(Exodus, GoesOnAfterAStepAndWritesOverLaterOnes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "modes.exo";
+  write_modes(file);
+  const std::string whole = test::content(file);
+  const std::vector<double> second = {-1, -2, -3, -4, -5, -6};
+  {
+    ExodusWriter writer(file, 1);
+    writer.write({9.0, {1.0}, three_components(std::vector<double>(6, 7.0), 2)});
+    writer.sync();
+    writer.close();
+  }
+  EXPECT_NE(test::content(file), whole);
+  {
+    ExodusWriter writer(file, 1);
+    writer.write({2.0, {5023.5}, three_components(second, 2)});
+    writer.close();
+  }
+  EXPECT_EQ(test::content(file), whole);
+  EXPECT_THROW(ExodusWriter(file, 3), Error);
+  EXPECT_THROW(ExodusWriter(folder.write("text.exo", "no Exodus file"), 1), Error);
+}
+
 TEST(Exodus, LongTitlesAndInformationAreCut) {
   const TemporaryFolder folder;
   write_modes(folder.path() / "modes.exo", std::string(200, 't'));

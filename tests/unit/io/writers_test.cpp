@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "io/output_file.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/io/matrix_market.hpp"
 #include "perimode/io/table.hpp"
@@ -118,6 +119,23 @@ TEST(WriteMatrixMarket, FullDiskIsAnErrorOfTheEnvironment) {
   EXPECT_EQ(
       kind_of_failure([] { write_matrix_market("/dev/full", small_matrix(), MatrixSymmetry::general); }),
       ErrorKind::environment);
+}
+
+TEST(OutputFile, GoesOnAfterItsFirstBytes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("history.csv", "step\n1\n2\nhalf a li");
+  {
+    OutputFile output(file, 7);
+    EXPECT_EQ(output.bytes(), 7);
+    output.buffer().append(std::string_view("three\n"));
+    EXPECT_EQ(output.bytes(), 13);
+    output.sync();
+    EXPECT_EQ(content(file), "step\n1\nthree\n");
+    output.close();
+  }
+  EXPECT_EQ(kind_of_failure([&] { const OutputFile output(file, 100); }), ErrorKind::invalid_input);
+  EXPECT_EQ(kind_of_failure([] { const OutputFile output("/nowhere/history.csv", 1); }),
+            ErrorKind::environment);
 }
 
 }  // namespace
