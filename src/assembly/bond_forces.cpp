@@ -103,6 +103,7 @@ struct BondForces<Dim>::Implementation {
   void set_time(double t) {
     if (dofs.empty() && ghosts.empty()) return;
     std::vector<double> factor;
+    factor.reserve(body->boundary.time.size());
     for (const TimeFunction& h : body->boundary.time) factor.push_back(value_at(h, t));
     for (std::size_t m = 0; m < dofs.size(); ++m)
       moving_displacement[m] = given.dof[dofs[m].at] = dofs[m].full * factor[dofs[m].time];
