@@ -174,9 +174,11 @@ void add_fillings(Stencil<Dim>& s) {
   for (Index layer = 0; layer < s.layers + 2 * s.reach; ++layer, occupant += s.layer_cells) {
     s.layer_fill.push_back(static_cast<Index>(s.fill.size()));
     const bool inner = layer >= s.reach && layer < s.layers + s.reach;
-    for (Index cell = 0; cell < s.layer_cells && inner && s.in_place; ++cell) {
-      if (occupant[cell] >= n)
-        s.in_place = s.bonds->home[boundary.image[occupant[cell] - n]] / s.layer_cells == layer;
+    for (Index cell = 0; inner && cell < s.layer_cells; ++cell) {
+      if (occupant[cell] < n) continue;
+      for_each_image(boundary, static_cast<std::size_t>(occupant[cell] - n), [&](Index j, const double*) {
+        s.in_place = s.in_place && s.bonds->home[j] / s.layer_cells == layer;
+      });
     }
     for (Index cell = 0; cell < s.layer_cells;) {
       FillRun run = filling(cell, occupant[cell]);

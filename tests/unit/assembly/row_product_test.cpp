@@ -68,6 +68,13 @@ TEST(RowProduct, PieceByPieceIsTheProduct) {
   fix_face(solid, 1, true, 1, {0, 2});
   expect_rows_equal_the_product(build_body<3>(solid));
 
+  Model surfaces = box_model({33, 37}, 0.5, 3.0);
+  for (const bool upper : {false, true}) {
+    test::add_surface_nodes(surfaces, 0, upper);
+    test::add_surface_nodes(surfaces, 1, upper);
+  }
+  expect_rows_equal_the_product(build_body<2>(surfaces));
+
   Model bar = box_model({1500}, 0.5, 3.0);
   add_walls(bar, 0, WallType::odd);
   expect_rows_equal_the_product(build_body<1>(bar));
