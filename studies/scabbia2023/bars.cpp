@@ -46,6 +46,7 @@ void run_bar(const BarRun& run, Results& results, Table* profiles) {
   const auto fields = release(body, u0, run.dt, run.times);
 
   std::vector<double> x;
+  x.reserve(body.particles.position.size());
   for (const Point<1>& p : body.particles.position) x.push_back(p[0]);
   const double dx = body.particles.grid->spacing;
   const std::vector<StandingWave> series = scabbia_series(separated);

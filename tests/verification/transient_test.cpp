@@ -38,6 +38,7 @@ Pulse let_go(const Model& model, double dt, const std::vector<double>& times) {
   Pulse pulse;
   pulse.model = model;
   pulse.start = along_x(body, scabbia_pulse);
+  pulse.x.reserve(body.particles.position.size());
   for (const Point<1>& p : body.particles.position) pulse.x.push_back(p[0]);
   pulse.times = times;
   pulse.u = release(body, pulse.start, dt, times);
