@@ -100,9 +100,11 @@ std::string command_line(int argc, char** argv) {
     if (word.empty() || !std::all_of(word.begin(), word.end(), plain)) {
       for (std::size_t at = 0; (at = word.find('\'', at)) != std::string::npos; at += 4)
         word.replace(at, 1, "'\\''");
-      word = "'" + word + "'";
+      word.insert(0, 1, '\'');
+      word += '\'';
     }
-    text += " " + word;
+    text += ' ';
+    text += word;
   }
   return text;
 }

@@ -21,13 +21,13 @@ boundary:
   - { prescribe: { x: 1.0e-5 }, at: { face: x+, layers: 3 }, time: { half_sine: 1.0e-4 } }
 analysis:
   transient:
-    end: 2.5e-3
+    end: 1.5e-3
     initial: { displacement: ["1.0e-3*exp(-100*(x-0.5)^2)"], velocity: ["x"] }
     damping: { rayleigh: [100, 1.0e-9] }
     loads: [ { body_force: [1.0e+5], time: { ricker: 2.0e+4 } } ]
     probes: { middle: { displacement_at: [0.5] }, end: { velocity_at: [0.9] } }
     history_every: 7
-    fields_every: 300
+    fields_every: 200
     checkpoint_every: 100
 output: { directory: out/run, fields: [displacement, velocity, strain, damage] }
 """
