@@ -176,6 +176,7 @@ class BondStepping final : public Integrator {
 
   [[nodiscard]] std::vector<double> load_factors() const {
     std::vector<double> h;
+    h.reserve(motion_->force.size());
     for (const ForceTerm& term : motion_->force) h.push_back(term.motion ? 0.0 : value_at(term.time, time()));
     return h;
   }
