@@ -86,7 +86,7 @@ Prediction check_transient(const Body<Dim>& body, const Case& input) {
     options.critical_stretch = critical_stretches(input.model, body);
     return plan_transient(body, options);
   });
-  return {transient_plan_text(body, plan), plan.memory_bytes, "this transient analysis"};
+  return {transient_plan_text(body, plan), plan.memory_bytes, "this transient analysis", plan.warnings};
 }
 
 /// All analyses of a case; modes where they are asked for, or nothing else is.

@@ -120,8 +120,10 @@ nlohmann::ordered_json transient_summary(const Case& input, const Body<Dim>& bod
   summary["dt"] = plan.dt;
   summary["steps"] = result.step;
   summary["time"] = result.time;
-  summary["stable_step"] = {
-      {"limit", plan.stable.limit}, {"omega_max", plan.stable.omega_max}, {"bound", plan.stable.bound}};
+  summary["stable_step"] = {{"limit", plan.stable.limit},
+                            {"omega_max", plan.stable.omega_max},
+                            {"bound", plan.stable.bound},
+                            {"growth", plan.stable.growth}};
   summary["symmetric"] = result.symmetric;
   summary["energies"] = energies_json(result.energies);
   summary["balance"] = relative_balance(result.energies);

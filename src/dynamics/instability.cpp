@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -84,7 +85,15 @@ void refuse_instability(const Body<Dim>& body, const Eigen::VectorXd& q, Complex
                  {}});
 }
 
+template <int Dim>
+bool softening(const Body<Dim>& body) {
+  const auto below_zero = [](double c) { return c < 0.0; };
+  return std::any_of(body.constants.kernel.begin(), body.constants.kernel.end(), below_zero) ||
+         std::any_of(body.constants.kernel_of_end.begin(), body.constants.kernel_of_end.end(), below_zero);
+}
+
 #define PERIMODE_INSTABILITY(D)                                                          \
+  template bool softening<D>(const Body<D>&);                                            \
   template std::array<double, D> wave_vector<D>(const Body<D>&, const Eigen::VectorXd&); \
   template void refuse_instability<D>(const Body<D>&, const Eigen::VectorXd&, Complex)
 PERIMODE_INSTABILITY(1);

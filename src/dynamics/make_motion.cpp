@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dynamics/instability.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/dynamics/transient.hpp"
@@ -155,7 +156,9 @@ template <int Dim>
 Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
   Motion motion;
   motion.mass = lumped_mass(body);
-  motion.stiffness = stiffness_rows(body, options.form);
+  // The other forms keep square roots of the bonds' stiffnesses.
+  const bool blocks = options.form == StiffnessForm::automatic && softening(body);
+  motion.stiffness = stiffness_rows(body, blocks ? StiffnessForm::blocks : options.form);
   constexpr double round_off = 1e-12;
   motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= round_off;
   const std::vector<double> rate = damping_rates(body, options);

@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <random>
 #include <vector>
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double accuracy = 1e-4;    ///< of omega_max, relative
 constexpr double negative = -1e-10;  ///< eigenvalues below that of the largest are instabilities
-constexpr double imaginary = 1e-8;   ///< complex ones beyond that of the largest likewise
+constexpr double imaginary = 1e-8;   ///< complex ones beyond that of the largest let motion grow
 constexpr int most_products = 600;   ///< of Lanczos
 constexpr double round_off = 1e-12;  ///< by which every value is raised at least
 
@@ -129,14 +130,6 @@ class Lanczos {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small_;
 };
 
-/// Whether some bond pulls where it should push: only then can K have a negative eigenvalue.
-template <int Dim>
-bool softening(const Body<Dim>& body) {
-  const auto below_zero = [](double c) { return c < 0.0; };
-  return std::any_of(body.constants.kernel.begin(), body.constants.kernel.end(), below_zero) ||
-         std::any_of(body.constants.kernel_of_end.begin(), body.constants.kernel_of_end.end(), below_zero);
-}
-
 /// Largest eigenvalue, raised by its error. Where bonds soften the iteration goes on until the lowest one is
 /// known to be negative or not, or for most_products.
 template <int Dim>
@@ -163,10 +156,19 @@ double symmetric_top(const Body<Dim>& body, Scaled& a) {
   return std::max(highest.value + highest.error, 0.0);
 }
 
+/// Largest |Im sqrt(lambda)| of the eigenvalues that are complex beyond round-off.
+double growth_of(const Eigen::VectorXcd& lambda, double top) {
+  double growth = 0.0;
+  for (const std::complex<double>& l : lambda) {
+    if (std::abs(l.imag()) > imaginary * top) growth = std::max(growth, std::abs(std::sqrt(l).imag()));
+  }
+  return growth;
+}
+
 /// The same for unsymmetric K: all eigenvalues of small bodies, else those of largest magnitude and, where
 /// bonds soften, those farthest from the largest.
 template <int Dim>
-double unsymmetric_top(const Body<Dim>& body, Scaled& a) {
+double unsymmetric_top(const Body<Dim>& body, Scaled& a, double& growth) {
   const Index n = a.size();
   constexpr Index few = 400;
   Eigen::VectorXcd value;
@@ -190,6 +192,11 @@ double unsymmetric_top(const Body<Dim>& body, Scaled& a) {
     residual.imag() = a(im) - value[0].real() * im - value[0].imag() * re;
     // Eigenvalues of these bodies are a few times as sensitive as those of symmetric ones.
     error = 10.0 * residual.norm();
+    // Real spectra hold nothing for this search to converge to, so it is a short one.
+    constexpr int few_restarts = 20;
+    const ArnoldiPairs aside = arnoldi([&](const Eigen::VectorXd& x) { return a(x); }, n, 2, 1e-4, 1,
+                                       ArnoldiTarget::imaginary_part, few_restarts);
+    growth = growth_of(aside.theta, std::abs(value[0]));
     if (softening(body)) {
       const double top = std::abs(value[0]);
       pairs =
@@ -204,9 +211,9 @@ double unsymmetric_top(const Body<Dim>& body, Scaled& a) {
   const double top = value.cwiseAbs().maxCoeff();
   Eigen::Index worst = 0;
   double badness = 0.0;
+  growth = std::max(growth, growth_of(value, top));
   for (Eigen::Index j = 0; j < value.size(); ++j) {
-    const double bad =
-        std::max(value[j].real() / (negative * top), std::abs(value[j].imag()) / (imaginary * top));
+    const double bad = value[j].real() / (negative * top);
     if (bad <= badness) continue;
     badness = bad;
     worst = j;
@@ -246,7 +253,7 @@ StableStep stable_step(const Body<Dim>& body, const LinearOperator& stiffness, c
   double top = 0.0;
   if (mass.size() > 0) {
     Scaled a(stiffness, mass);
-    top = (symmetric ? symmetric_top(body, a) : unsymmetric_top(body, a)) * (1.0 + round_off);
+    top = (symmetric ? symmetric_top(body, a) : unsymmetric_top(body, a, step.growth)) * (1.0 + round_off);
     step.products = a.products();
   }
   step.omega_max = std::sqrt(top);

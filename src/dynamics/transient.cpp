@@ -224,7 +224,11 @@ class Stepper {
     row.broken_bonds = run_->integrator->broken_bonds();
     result_->energies = row.energies;
     result_->broken_bonds = row.broken_bonds;
-    if (!std::isfinite(row.energies.kinetic + row.energies.strain)) return false;
+    const double held = row.energies.kinetic + row.energies.strain;
+    if (!std::isfinite(held)) return false;
+    constexpr double beyond_belief = 1e4;
+    put_in_ = std::max(put_in_, row.energies.initial + std::abs(row.energies.external_work));
+    if (!result_->symmetric && put_in_ > 0.0 && held > beyond_belief * put_in_) return false;
     if (observer_->history) {
       const Eigen::VectorXd& q = run_->integrator->displacement();
       const Eigen::VectorXd v = needs_velocity_ ? run_->integrator->velocity() : Eigen::VectorXd();
@@ -250,6 +254,7 @@ class Stepper {
   std::vector<std::int64_t> field_steps_;
   Everywhere<Dim> everywhere_;
   bool needs_velocity_ = false;
+  double put_in_ = 0.0;  ///< energy that came in so far, J
 };
 
 }  // namespace
@@ -267,6 +272,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   result.symmetric = run.motion.symmetric;
   sink.report("stable step");
   result.plan = plan_steps(body, options, run.motion);
+  for (const std::string& warning : result.plan.warnings) sink.warn(warning);
   const double dt = result.plan.dt;
 
   const Eigen::VectorXd q = free_part(body.boundary, initial.displacement);
@@ -307,7 +313,9 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   }
   if (!sound) {
     result.status = TransientStatus::unstable;
-    result.message = fmt::format("displacements grew beyond all numbers before step {}", result.step);
+    result.message = fmt::format(
+        "displacements grew beyond all measure before step {}{}", result.step,
+        result.symmetric ? "" : ": an unsymmetric boundary can feed waves; use other walls or damping");
   }
   result.seconds_steps = seconds_since(stepping);
   result.iterations = *run.iterations;

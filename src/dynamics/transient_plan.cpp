@@ -117,6 +117,13 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
     plan.steps = std::max<std::int64_t>(std::llround(options.end / options.dt), 1);
     if (explicit_method && options.dt > plan.stable.limit * (1.0 + 1e-12)) refuse_step(options, plan);
   }
+  const double grown = plan.stable.growth * plan.dt * static_cast<double>(plan.steps);
+  if (grown > 0.1) {
+    plan.warnings.push_back(fmt::format(
+        "the unsymmetric boundary (surface nodes, odd or even walls) lets some waves grow by up to "
+        "{:.3g} 1/s, exp({:.3g}) over this run; use mirror, antimirror or zero_layer walls, or damping",
+        plan.stable.growth, grown));
+  }
   const double dofs = body.boundary.free;
   const double all_dofs = static_cast<double>(body.count()) * Dim;
   // State, forces and the work of the integrator; the frames and fields that are written.

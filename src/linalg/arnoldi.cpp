@@ -15,7 +15,9 @@
 namespace perimode {
 
 ArnoldiPairs arnoldi(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
-                     int count, double tolerance, std::uint64_t seed) {
+                     int count, double tolerance, std::uint64_t seed, ArnoldiTarget target,
+                     int most_restarts) {
+  const char* which = target == ArnoldiTarget::magnitude ? "LM" : "LI";
   const auto n = static_cast<a_int>(size);
   const a_int columns = std::min<a_int>(n, std::max(2 * count + 2, 40));
   std::mt19937_64 random(seed);
@@ -23,12 +25,11 @@ ArnoldiPairs arnoldi(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
   Eigen::MatrixXd basis(n, columns);
   std::vector<double> work(3 * static_cast<std::size_t>(n));
   std::vector<double> small(3 * static_cast<std::size_t>(columns) * (columns + 2));
-  constexpr a_int most_restarts = 1000;
   a_int parameter[11] = {1, 0, most_restarts, 1, 0, 0, 1, 0, 0, 0, 0};
   a_int pointer[14] = {};
   a_int ido = 0, info = 1;  // info = 1: start from our residual
   for (;;) {
-    dnaupd_c(&ido, "I", n, "LM", count, tolerance, residual.data(), columns, basis.data(), n, parameter,
+    dnaupd_c(&ido, "I", n, which, count, tolerance, residual.data(), columns, basis.data(), n, parameter,
              pointer, work.data(), small.data(), static_cast<a_int>(small.size()), &info);
     if (ido != 1 && ido != -1) break;
     const Eigen::VectorXd y = apply(Eigen::Map<const Eigen::VectorXd>(&work[pointer[0] - 1], n));
@@ -41,7 +42,7 @@ ArnoldiPairs arnoldi(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)
   Eigen::VectorXd real(count + 1), imaginary(count + 1), room(3 * columns);
   Eigen::MatrixXd part(n, count + 1);
   dneupd_c(1, "A", select.data(), real.data(), imaginary.data(), part.data(), n, 0.0, 0.0, room.data(), "I",
-           n, "LM", count, tolerance, residual.data(), columns, basis.data(), n, parameter, pointer,
+           n, which, count, tolerance, residual.data(), columns, basis.data(), n, parameter, pointer,
            work.data(), small.data(), static_cast<a_int>(small.size()), &info);
   if (info != 0)
     throw Error(ErrorKind::solver_failure, "ARPACK dneupd failed with code " + std::to_string(info));

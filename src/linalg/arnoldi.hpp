@@ -14,9 +14,13 @@ struct ArnoldiPairs {
   Eigen::MatrixXcd vector;
 };
 
-/// At least `count` eigenpairs of largest magnitude by implicitly restarted Arnoldi (ARPACK);
-/// tolerance 0: machine precision. Empty if it does not converge. Throws Error(solver_failure).
+/// Which eigenvalues are looked for: of largest magnitude, or of largest imaginary part (in magnitude).
+enum class ArnoldiTarget { magnitude, imaginary_part };
+
+/// At least `count` eigenpairs by implicitly restarted Arnoldi (ARPACK); tolerance 0: machine precision.
+/// Empty if it does not converge within most_restarts. Throws Error(solver_failure).
 [[nodiscard]] ArnoldiPairs arnoldi(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                                   Eigen::Index n, int count, double tolerance, std::uint64_t seed);
+                                   Eigen::Index n, int count, double tolerance, std::uint64_t seed,
+                                   ArnoldiTarget target = ArnoldiTarget::magnitude, int most_restarts = 1000);
 
 }  // namespace perimode

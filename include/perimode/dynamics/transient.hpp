@@ -128,6 +128,7 @@ struct TransientPlan {
   double dt = 0.0;
   std::int64_t steps = 0;
   double memory_bytes = 0.0;
+  std::vector<std::string> warnings = {};
 };
 
 enum class TransientStatus { done, interrupted, unstable };
@@ -154,7 +155,8 @@ struct TransientResult {
 /// state an observer was given by the same run. Throws invalid_input: dt <= 0 or beyond the stable step (with
 /// both numbers and the bound), end <= 0, a probe outside the body, an empty load region, a method that does
 /// not fit (modal superposition of an unsymmetric body, large rotations with an implicit method), a material
-/// instability. A displacement that is no number ends the run as unstable.
+/// instability. Displacements that are no numbers end a run as unstable, and so does, with an unsymmetric
+/// boundary, an energy that has grown beyond 10^4 times what was ever put in.
 template <int Dim>
 [[nodiscard]] TransientResult run_transient(Body<Dim>& body, const TransientOptions& options,
                                             const InitialState& initial,

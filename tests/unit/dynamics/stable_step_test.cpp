@@ -7,8 +7,10 @@
 #include <Eigen/Eigenvalues>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <cstdio>
 #include <limits>
+#include <utility>
 
 #include "dense_motion.hpp"
 #include "dynamics/instability.hpp"
@@ -104,6 +106,36 @@ TEST(StableStep, UnsymmetricBodiesSmallAndLarge) {
   check(build_body<1>(bar));
   check(build_body<2>(plate));
   check(build_body<2>(large));
+}
+
+/// Surface nodes on all sides of a plate have complex eigenvalues: undamped motion grows, and the rate is
+/// found among all eigenvalues of a small plate and by Arnoldi in a larger one. Their largest imaginary part
+/// lies inside the spectrum.
+TEST(StableStep, GrowthByAnUnsymmetricBoundary) {
+  for (const auto& [nx, ny] : {std::pair{12, 9}, std::pair{20, 14}}) {
+    Model model = test::box_model({nx, ny}, 0.1, 3.0);
+    model.volume_correction = VolumeCorrection::linear;
+    test::add_walls(model, 0, WallType::surface_nodes);
+    test::add_walls(model, 1, WallType::surface_nodes);
+    const Body<2> body = build_body<2>(model);
+    const Eigen::VectorXd mass = lumped_mass(body);
+    const Eigen::MatrixXd a = mass.cwiseInverse().asDiagonal() * test::dense_stiffness(body);
+    double growth = 0.0;
+    for (const std::complex<double>& l : a.eigenvalues())
+      growth = std::max(growth, std::abs(std::sqrt(l).imag()));
+    const StableStep step = step_of(body);
+    EXPECT_FALSE(step.symmetric);
+    EXPECT_GT(growth, 0.01 * step.omega_max);
+    EXPECT_NEAR(step.growth, growth, 0.2 * growth)
+        << nx;  // beyond 400 dofs that of the largest imaginary part
+  }
+  Model mirrored = test::box_model({12, 9}, 0.1, 3.0);
+  test::add_walls(mirrored, 0, WallType::mirror);
+  EXPECT_EQ(step_of(build_body<2>(mirrored)).growth, 0.0);
+  Model bar = test::box_model({600}, 0.1, 3.0);  // real, though unsymmetric
+  bar.volume_correction = VolumeCorrection::linear;
+  test::add_walls(bar, 0, WallType::surface_nodes);
+  EXPECT_EQ(step_of(build_body<1>(bar)).growth, 0.0);
 }
 
 TEST(StableStep, StiffnessDampingShortensIt) {

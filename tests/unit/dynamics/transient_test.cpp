@@ -364,6 +364,35 @@ TEST(Transient, UnsymmetricBoundariesDoWork) {
   EXPECT_TRUE(record<2>(mirrored, until(0.2), true).result.symmetric);
 }
 
+/// Bonds of the third layer that pull where they should push: short waves have a negative eigenvalue.
+TEST(Transient, AMaterialThatSoftensIsRefusedWithItsWave) {
+  Model m = bar(60);
+  m.periodic[0] = true;
+  Body<1> body = build_body<1>(m);
+  for (const std::size_t k : {std::size_t{0}, body.constants.kernel.size() - 1})
+    body.constants.kernel[k] *= -8.0;
+  EXPECT_THAT([&] { (void)run_transient(body, until(0.1), {}); },
+              ThrowsMessage<Error>(
+                  AllOf(HasSubstr("a material that resists every motion"), HasSubstr("pi/spacing"))));
+}
+
+/// Surface nodes in the plane feed some waves: the plan warns, and a run that is long enough ends as
+/// unstable.
+TEST(Transient, WavesThatABoundaryFeedsAreNamed) {
+  Model m = box_model({12, 9}, 0.1, 3.0);
+  m.volume_correction = VolumeCorrection::linear;
+  add_walls(m, 0, WallType::surface_nodes);
+  add_walls(m, 1, WallType::surface_nodes);
+  TransientOptions options = until(30.0);
+  options.history_every = 10;
+  const Recorded r = record<2>(m, options, true);
+  EXPECT_THAT(r.result.plan.warnings, ElementsAre(HasSubstr("lets some waves grow")));
+  EXPECT_EQ(r.result.status, TransientStatus::unstable);
+  EXPECT_LT(r.result.time, 30.0);
+  EXPECT_THAT(r.result.message, HasSubstr("unsymmetric boundary"));
+  EXPECT_TRUE(record<1>(bar(50), until(1.0), true).result.plan.warnings.empty());
+}
+
 TEST(Transient, MirrorSymmetricLoadsMoveTheBodySymmetrically) {
   Model m = box_model({10, 6}, 0.1, 3.0);
   TransientOptions options = until(0.8);
