@@ -83,6 +83,21 @@ class Everywhere {
   std::vector<double> h_, rate_;
 };
 
+/// Particles with bonds across a surface of given traction, whose map counts on those bonds: none of them
+/// breaks.
+template <int Dim>
+std::vector<Index> held_by_traction(const Body<Dim>& body) {
+  std::vector<Index> held;
+  if (body.boundary.more_start.empty()) return held;
+  for (Index i = 0; i < body.count(); ++i) {
+    bool across = false;
+    for_each_bond(body.bonds, i, Which::alive,
+                  [&](const BondEnd<Dim>& end) { across = across || end.neighbour >= body.count(); });
+    if (across) held.push_back(i);
+  }
+  return held;
+}
+
 /// What a run is made of. The order matters: later ones refer to earlier ones.
 template <int Dim>
 struct Run {
@@ -278,7 +293,8 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   const Eigen::VectorXd q = free_part(body.boundary, initial.displacement);
   const Eigen::VectorXd v = free_part(body.boundary, initial.velocity);
   if (needs_bond_forces(options)) {
-    run.forces = std::make_unique<BondForces<Dim>>(body, options.kinematics, options.critical_stretch);
+    run.forces = std::make_unique<BondForces<Dim>>(body, options.kinematics, options.critical_stretch,
+                                                   held_by_traction(body));
     run.integrator = central_difference(run.motion, *run.forces, dt);
   } else if (options.method == TimeMethod::central_difference) {
     run.integrator = central_difference(run.motion, dt);

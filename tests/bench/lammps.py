@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Explicit steps of one block on one core: LAMMPS (peri/pmb, pmb.lmp beside this file) and Perimode.
 
-    tests/bench/lammps.py --bench build/release/tests/bench/bench_transient [--lmp lmp] [--repeats 3]
+    tests/bench/lammps.py [--benches build/release/tests/bench] [--lmp lmp] [--repeats 3]
 
 Prints particle-steps per second of processor time (the best of the repeats, the programs taking turns; set-up
 left out) and the largest resident memory of each program, and the ratio to LAMMPS.
@@ -17,9 +17,12 @@ import sys
 import tempfile
 
 CELLS = 47
-# Rows of the table: what they say and the benchmark they run.
+# Rows of the table: what they say, the program and the benchmark they run.
 ROWS = [
-    ("Perimode, linear, stencil", f"block/3D/{CELLS}/1"),
+    ("Perimode, linear, stencil", "bench_transient", f"block/3D/{CELLS}/1"),
+    ("Perimode, linear, breaking", "bench_bond_forces", f"linear/3D/{CELLS}/1"),
+    ("Perimode, large rotation, breaking", "bench_bond_forces", f"elastic/3D/{CELLS}/1"),
+    ("  the same, energies every step", "bench_bond_forces", f"history/3D/{CELLS}/1"),
 ]
 
 
@@ -67,7 +70,8 @@ def perimode(program, name, core):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--bench", type=pathlib.Path, required=True, help="the program bench_transient")
+    parser.add_argument("--benches", type=pathlib.Path, default=pathlib.Path("build/release/tests/bench"),
+                        help="folder of the benchmarks")
     parser.add_argument("--lmp", default="lmp", help="the program LAMMPS")
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--steps", type=int, default=60, help="of LAMMPS, timed")
@@ -78,7 +82,7 @@ def main():
     rate, memory = [0.0] * len(names), [0.0] * len(names)
     for _ in range(arguments.repeats):
         figures = [lammps(arguments.lmp, arguments.steps, arguments.core),
-                   *(perimode(arguments.bench, row[1], arguments.core) for row in ROWS)]
+                   *(perimode(arguments.benches / row[1], row[2], arguments.core) for row in ROWS)]
         for k, (particle_steps, mib) in enumerate(figures):
             rate[k] = max(rate[k], particle_steps)
             memory[k] = max(memory[k], mib)
