@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "dynamics/instability.hpp"
+#include "dynamics/transient_plan.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/dynamics/transient.hpp"
@@ -150,15 +151,25 @@ void add_given_motion(const Body<Dim>& body, Motion& motion) {
   }
 }
 
+/// Form of K. Softening bonds have no square root, which all forms but blocks keep. Stiffness damping of a
+/// body that breaks is that of the whole one, which the stencil, reading the alive bits, would forget.
+template <int Dim>
+StiffnessForm stored_form(const Body<Dim>& body, const TransientOptions& options) {
+  const bool automatic = options.form == StiffnessForm::automatic;
+  if (automatic && softening(body)) return StiffnessForm::blocks;
+  const bool reads_bits = automatic || options.form == StiffnessForm::stencil;
+  if (reads_bits && needs_bond_forces(options) && options.rayleigh_stiffness > 0.0)
+    return StiffnessForm::bonds;
+  return options.form;
+}
+
 }  // namespace
 
 template <int Dim>
 Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
   Motion motion;
   motion.mass = lumped_mass(body);
-  // The other forms keep square roots of the bonds' stiffnesses.
-  const bool blocks = options.form == StiffnessForm::automatic && softening(body);
-  motion.stiffness = stiffness_rows(body, blocks ? StiffnessForm::blocks : options.form);
+  motion.stiffness = stiffness_rows(body, stored_form(body, options));
   constexpr double round_off = 1e-12;
   motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= round_off;
   const std::vector<double> rate = damping_rates(body, options);

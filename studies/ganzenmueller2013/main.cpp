@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// ganzenmueller2013 [--coarse] EXPECTED.csv [CLOUD...] [--out OUT]: strain energy, speed of sound and a pulse
+// ganzenmueller2013 [--coarse] EXPECTED.csv [MESH...] [--out OUT]: strain energy, speed of sound and a pulse
 // in lattices with original and normalised constants, and a pulse in the tetrahedra of each mesh (the
 // coarsest first). Prints tables, compares them with EXPECTED.csv and writes OUT/results.csv and
 // OUT/profiles.csv. Exit code 1: disagreement.
@@ -48,7 +48,7 @@ int main(int argc, char** argv) {
     words.resize(words.size() - 2);
   }
   if (words.empty()) {
-    fmt::print(stderr, "usage: ganzenmueller2013 [--coarse] EXPECTED.csv [CLOUD...] [--out OUT]\n");
+    fmt::print(stderr, "usage: ganzenmueller2013 [--coarse] EXPECTED.csv [MESH...] [--out OUT]\n");
     return 2;
   }
   try {

@@ -2,7 +2,6 @@
 """Tetrahedra of a bar 1 x 0.1 x 0.1, strongly graded, in Gmsh's format 2.2.
 
 mesh.py OUT            OUT/bar_1.msh and OUT/bar_2.msh: bar.msh beside this script, each tetrahedron split in 8, and again;
-                       OUT/bar_0.csv, OUT/bar_1.csv, OUT/bar_2.csv: centroids and volumes of the three
 mesh.py --new FILE     a new mesh as FILE: Delaunay's of random points of a fixed seed, some in tight clusters
                        (needs scipy); bar.msh was made so
 """
@@ -22,9 +21,21 @@ DIAGONALS = {(5, 8): ((5, 8, 4, 6), (5, 8, 6, 9), (5, 8, 9, 7), (5, 8, 7, 4)),
              (6, 7): ((6, 7, 4, 5), (6, 7, 5, 9), (6, 7, 9, 8), (6, 7, 8, 4))}
 
 
-def volumes(nodes, tetrahedra):
+def signed_volumes(nodes, tetrahedra):
     a, b, c, d = (nodes[tetrahedra[:, i]] for i in range(4))
-    return np.abs(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a)) / 6.0
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6.0
+
+
+def volumes(nodes, tetrahedra):
+    return np.abs(signed_volumes(nodes, tetrahedra))
+
+
+def oriented(nodes, tetrahedra):
+    """The same with positive volumes: the last two corners of an inverted one change places."""
+    inverted = signed_volumes(nodes, tetrahedra) < 0.0
+    tetrahedra = tetrahedra.copy()
+    tetrahedra[inverted] = tetrahedra[inverted][:, [0, 1, 3, 2]]
+    return tetrahedra
 
 
 def read(file):
@@ -39,6 +50,7 @@ def read(file):
 
 
 def write(file, nodes, tetrahedra):
+    tetrahedra = oriented(nodes, tetrahedra)
     with open(file, "w", newline="\n") as out:
         out.write("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n")
         out.write(f"$Nodes\n{len(nodes)}\n")
@@ -46,13 +58,6 @@ def write(file, nodes, tetrahedra):
         out.write(f"$EndNodes\n$Elements\n{len(tetrahedra)}\n")
         out.writelines(f"{i} 4 2 1 1 {a} {b} {c} {d}\n" for i, (a, b, c, d) in enumerate(tetrahedra + 1, start=1))
         out.write("$EndElements\n")
-
-
-def write_cloud(file, nodes, tetrahedra):
-    with open(file, "w", newline="\n") as out:
-        out.write("x,y,z,volume\n")
-        out.writelines(f"{x:.17g},{y:.17g},{z:.17g},{v:.17g}\n"
-                       for (x, y, z), v in zip(nodes[tetrahedra].mean(axis=1), volumes(nodes, tetrahedra)))
 
 
 def split(nodes, tetrahedra):
@@ -114,11 +119,9 @@ def main(words):
     nodes, tetrahedra = read(Path(__file__).parent / "bar.msh")
     out = Path(words[0])
     describe("bar.msh", nodes, tetrahedra)
-    write_cloud(out / "bar_0.csv", nodes, tetrahedra)
     for level in (1, 2):
         nodes, tetrahedra = split(nodes, tetrahedra)
         write(out / f"bar_{level}.msh", nodes, tetrahedra)
-        write_cloud(out / f"bar_{level}.csv", nodes, tetrahedra)
         describe(f"bar_{level}.msh", nodes, tetrahedra)
 
 

@@ -9,5 +9,5 @@ here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 python=$("$here/../../scripts/find_python.sh")
 mkdir -p "$2"
 "$python" "$here/mesh.py" "$2"
-"$1/studies/ganzenmueller2013/ganzenmueller2013" "$here/expected.csv" "$2/bar_0.csv" "$2/bar_1.csv" "$2/bar_2.csv" --out "$2"
+"$1/studies/ganzenmueller2013/ganzenmueller2013" "$here/expected.csv" "$here/bar.msh" "$2/bar_1.msh" "$2/bar_2.msh" --out "$2"
 "$python" "$here/plot.py" "$2"
