@@ -11,7 +11,7 @@ namespace perimode {
 
 /// Bonds that turn and break, eight at a time. Every operation is symmetric in sign and none is contracted to
 /// a fused one (the file is compiled so), so both ends of a bond compute opposite values to the last bit
-/// wherever they are computed, on any processor. docs/theory/11_transient.md.
+/// wherever they are computed, on any processor. docs/theory/13_breaking.md.
 
 /// The kernels take whole groups: they read and write up to so many numbers past the end of a run.
 constexpr Index bond_lanes = 8;

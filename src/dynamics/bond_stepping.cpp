@@ -1,45 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
+#include "dynamics/saved_state.hpp"
+#include "linalg/fused.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/dynamics/central_difference.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr Index block = 4096;           ///< terms of a partial sum: sums do not depend on the threads
-constexpr Index parallel_dofs = 10000;  ///< from which threads pay
-
-template <class Term>
-double sum_over(Index n, const Term& term) {
-  std::vector<double> partial(static_cast<std::size_t>((n + block - 1) / block));
-#pragma omp parallel for schedule(static) if (n >= parallel_dofs)
-  for (Index first = 0; first < n; first += block) {
-    double sum = 0.0;
-    for (Index d = first; d < std::min(n, first + block); ++d) sum += term(d);
-    partial[static_cast<std::size_t>(first / block)] = sum;
-  }
-  double total = 0.0;
-  for (const double p : partial) total += p;
-  return total;
-}
-
-std::vector<double> numbers_of(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
-
-const std::vector<double>& find(const IntegratorState& state, const char* name, std::size_t size) {
-  const auto at = state.numbers.find(name);
-  if (at == state.numbers.end() || at->second.size() != size) {
-    invalid_input({fmt::format("{} numbers named {}", size, name),
-                   at == state.numbers.end() ? "none" : fmt::format("{}", at->second.size()),
-                   "resume with the case that wrote the checkpoint",
-                   {}});
-  }
-  return at->second;
-}
 
 /// At step n: q_n, v_{n-1/2} and the force on the free dofs at q_n, in which all bonds broken by then are
 /// missing; so what a step reports is known when it is reached.
@@ -73,11 +44,12 @@ class BondStepping final : public Integrator {
 
   void advance(bool with_energies) override {
     const std::vector<double> load = load_factors();
-#pragma omp parallel for schedule(static) if (n_ >= parallel_dofs)
-    for (Index d = 0; d < n_; ++d) {
-      v_[d] = next_velocity(d);
-      q_[d] += dt_ * v_[d];
-    }
+    for_each_chunk(n_, [&](Index first, Index count) {
+      for (Index d = first; d < first + count; ++d) {
+        v_[d] = next_velocity(d);
+        q_[d] += dt_ * v_[d];
+      }
+    });
     ++step_;
     const std::vector<double> later = load_factors();
     for (std::size_t k = 0; k < motion_->force.size(); ++k) {
@@ -116,10 +88,10 @@ class BondStepping final : public Integrator {
     const Energies& e = energies_;
     IntegratorState state;
     state.step = step_;
-    state.numbers["displacement"] = numbers_of(q_);
-    state.numbers["velocity"] = numbers_of(v_);
-    state.numbers["force"] = numbers_of(force_);
-    state.numbers["damped"] = numbers_of(damped_);
+    perimode::save("displacement", q_, state);
+    perimode::save("velocity", v_, state);
+    perimode::save("force", force_, state);
+    perimode::save("damped", damped_, state);
     state.numbers["reaction"] = reaction_;
     state.numbers["energies"] = {e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.initial};
     state.numbers["sums"] = {work_.sum,   work_.lost,   damping_.sum, damping_.lost,
@@ -133,20 +105,15 @@ class BondStepping final : public Integrator {
     const auto alive = state.bits.find("alive");
     const auto broken = state.bits.find("broken");
     if (alive == state.bits.end() || broken == state.bits.end() || broken->second.size() != 1) {
-      invalid_input(
-          {"a state of bonds that break", "another", "resume with the case that wrote the checkpoint", {}});
+      invalid_input({"a checkpoint of bonds that break", "another", "resume with the case that made it", {}});
     }
-    const auto vector = [&](const char* name, Eigen::Index size) -> Eigen::VectorXd {
-      return Eigen::Map<const Eigen::VectorXd>(find(state, name, static_cast<std::size_t>(size)).data(),
-                                               size);
-    };
-    const auto& e = find(state, "energies", 6);
-    const auto& sums = find(state, "sums", 8);
-    std::vector<double> reaction = find(state, "reaction", forces_->moving_force().size());
-    Eigen::VectorXd q = vector("displacement", n_);
-    Eigen::VectorXd v = vector("velocity", n_);
-    Eigen::VectorXd force = vector("force", n_);
-    Eigen::VectorXd damped = vector("damped", damped_.size());
+    const auto& e = saved_numbers(state, "energies", 6);
+    const auto& sums = saved_numbers(state, "sums", 8);
+    std::vector<double> reaction = saved_numbers(state, "reaction", forces_->moving_force().size());
+    Eigen::VectorXd q = saved(state, "displacement", n_);
+    Eigen::VectorXd v = saved(state, "velocity", n_);
+    Eigen::VectorXd force = saved(state, "force", n_);
+    Eigen::VectorXd damped = saved(state, "damped", damped_.size());
     forces_->restore({alive->second, static_cast<Offset>(broken->second[0]), sums[7]});
     step_ = state.step;
     forces_->set_time(time());
@@ -171,6 +138,14 @@ class BondStepping final : public Integrator {
   [[nodiscard]] double next_velocity(Index d) const {
     const double half = 0.5 * dt_ * rate(d);
     return ((1.0 - half) * v_[d] + dt_ * force_[d] / motion_->mass[d]) / (1.0 + half);
+  }
+  template <class Term>
+  [[nodiscard]] double sum_over_dofs(const Term& term) const {
+    return sum_over_chunks(n_, [&](Index first, Index count) {
+      double sum = 0.0;
+      for (Index d = first; d < first + count; ++d) sum += term(d);
+      return sum;
+    });
   }
   [[nodiscard]] double velocity_at(Index d) const { return 0.5 * (v_[d] + next_velocity(d)); }
 
@@ -207,12 +182,12 @@ class BondStepping final : public Integrator {
   [[nodiscard]] double damping_power() const {
     double power = 0.0;
     if (motion_->damping_rate.size() > 0) {
-      power += sum_over(n_, [&](Index d) {
+      power += sum_over_dofs([&](Index d) {
         const double v = velocity_at(d);
         return motion_->damping_rate[d] * motion_->mass[d] * v * v;
       });
     }
-    if (damped_.size() > 0) power += sum_over(n_, [&](Index d) { return velocity_at(d) * damped_[d]; });
+    if (damped_.size() > 0) power += sum_over_dofs([&](Index d) { return velocity_at(d) * damped_[d]; });
     return power;
   }
 
@@ -227,7 +202,7 @@ class BondStepping final : public Integrator {
   }
 
   void find_energies() {
-    energies_.kinetic = sum_over(n_, [&](Index d) {
+    energies_.kinetic = sum_over_dofs([&](Index d) {
       const double v = velocity_at(d);
       return 0.5 * motion_->mass[d] * v * v;
     });

@@ -2,10 +2,9 @@
 #include "perimode/dynamics/central_difference.hpp"
 
 #include <algorithm>
-#include <string>
 #include <utility>
 
-#include "perimode/core/error.hpp"
+#include "dynamics/saved_state.hpp"
 #include "step_kernels.hpp"
 
 namespace perimode {
@@ -174,34 +173,18 @@ class CentralDifference final : public Integrator {
   [[nodiscard]] IntegratorState save() const override {
     IntegratorState state;
     state.step = step_;
-    state.numbers["displacement"] = {q_.begin(), q_.end()};
-    state.numbers["velocity"] = {v_.begin(), v_.end()};
+    perimode::save("displacement", q_, state);
+    perimode::save("velocity", v_, state);
     state.numbers["energies"] = {kinetic_,   strain_,      initial_,      work_.sum,
                                  work_.lost, damping_.sum, damping_.lost, dt_};
     return state;
   }
 
   void restore(const IntegratorState& state) override {
-    const auto numbers = [&](const std::string& name, std::size_t size) -> const std::vector<double>& {
-      const auto at = state.numbers.find(name);
-      if (at == state.numbers.end() || at->second.size() != size) {
-        invalid_input({std::to_string(size) + " numbers of \"" + name + "\" for central differences",
-                       at == state.numbers.end() ? "none" : std::to_string(at->second.size()),
-                       "resume with the case that made the checkpoint",
-                       {}});
-      }
-      return at->second;
-    };
-    const auto size = static_cast<std::size_t>(motion_->stiffness.size);
-    const auto& e = numbers("energies", 8);
-    if (e[7] != dt_) {
-      invalid_input({"a checkpoint of steps of " + std::to_string(dt_) + " s",
-                     std::to_string(e[7]) + " s",
-                     "resume with the case that made the checkpoint",
-                     {}});
-    }
-    q_ = Eigen::Map<const Eigen::VectorXd>(numbers("displacement", size).data(), motion_->stiffness.size);
-    v_ = Eigen::Map<const Eigen::VectorXd>(numbers("velocity", size).data(), motion_->stiffness.size);
+    const auto& e = saved_numbers(state, "energies", 8);
+    check_saved_step(e[7], dt_);
+    q_ = saved(state, "displacement", motion_->stiffness.size);
+    v_ = saved(state, "velocity", motion_->stiffness.size);
     step_ = state.step;
     kinetic_ = e[0];
     strain_ = e[1];

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dynamics/ledger.hpp"
 
-#include <fmt/format.h>
-
-#include "perimode/core/error.hpp"
+#include "dynamics/saved_state.hpp"
 
 namespace perimode {
 
@@ -54,34 +52,14 @@ Energies Ledger::with(double kinetic, double strain) const {
   return e;
 }
 
-void save(const std::string& name, const Eigen::VectorXd& x, IntegratorState& state) {
-  state.numbers[name].assign(x.begin(), x.end());
-}
-
-Eigen::VectorXd saved(const IntegratorState& state, const std::string& name, Eigen::Index size) {
-  const auto found = state.numbers.find(name);
-  if (found == state.numbers.end() || found->second.size() != static_cast<std::size_t>(size)) {
-    invalid_input({fmt::format("a saved state with {} numbers named {}", size, name),
-                   found == state.numbers.end() ? "none" : fmt::format("{}", found->second.size()),
-                   "resume with the case and the method the state was made by",
-                   {}});
-  }
-  return Eigen::Map<const Eigen::VectorXd>(found->second.data(), size);
-}
-
 void save(const Ledger& ledger, double dt, IntegratorState& state) {
   state.numbers["ledger"] = {ledger.work.sum,     ledger.work.lost, ledger.damping.sum,
                              ledger.damping.lost, ledger.initial,   dt};
 }
 
 Ledger saved_ledger(const IntegratorState& state, double dt) {
-  const Eigen::VectorXd n = saved(state, "ledger", 6);
-  if (n[5] != dt) {
-    invalid_input({fmt::format("a saved state of steps of {} s", dt),
-                   fmt::format("{} s", n[5]),
-                   "resume with the step the state was made by",
-                   {}});
-  }
+  const std::vector<double>& n = saved_numbers(state, "ledger", 6);
+  check_saved_step(n[5], dt);
   return {{n[0], n[1]}, {n[2], n[3]}, n[4]};
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "perimode/dynamics/motion.hpp"
@@ -37,9 +36,5 @@ struct Ledger {
 void save(const Ledger& ledger, double dt, IntegratorState& state);
 /// Throws invalid_input where the state is none of this kind, or one of another step.
 [[nodiscard]] Ledger saved_ledger(const IntegratorState& state, double dt);
-
-void save(const std::string& name, const Eigen::VectorXd& x, IntegratorState& state);
-/// Throws invalid_input where the state has no numbers of that name and size.
-[[nodiscard]] Eigen::VectorXd saved(const IntegratorState& state, const std::string& name, Eigen::Index size);
 
 }  // namespace perimode

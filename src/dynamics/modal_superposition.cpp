@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "dynamics/ledger.hpp"
+#include "dynamics/saved_state.hpp"
 #include "perimode/core/error.hpp"
 
 namespace perimode {
@@ -34,7 +35,7 @@ struct ModeStep {
 
 /// exp(L dt) and int_0^dt exp(L^T s) e e^T exp(L s) ds, e the velocity, by Taylor series of a short time and
 /// doubling: exact to round-off for rigid, slow, fast, critically and heavily damped modes alike.
-/// docs/theory/11_parts/implicit.md
+/// docs/theory/12_implicit.md
 ModeStep mode_step(Real lambda, Real damping, Real dt) {
   Square generator = Square::Zero();
   generator(y_now, v_now) = 1;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "dynamics/ledger.hpp"
+#include "dynamics/saved_state.hpp"
 #include "linalg/fused.hpp"
 #include "perimode/core/error.hpp"
 
@@ -36,8 +37,8 @@ NewmarkOptions checked(NewmarkOptions o) {
   return o;
 }
 
-/// Notation of docs/theory/11_parts/implicit.md: z' = (1 + alpha) z_{n+1} - alpha z_n, M a_{n+1} + C v' +
-/// K q' = F', w = q + stiffness_damping v.
+/// Notation of docs/theory/12_implicit.md: z' = (1 + alpha) z_{n+1} - alpha z_n, M a_{n+1} + C v' + K q' =
+/// F', w = q + stiffness_damping v.
 class Newmark final : public Integrator {
  public:
   Newmark(const Motion& motion, double dt, const NewmarkOptions& options, const ShiftedSolver& solver)

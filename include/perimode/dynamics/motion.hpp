@@ -37,8 +37,8 @@ struct Motion {
   Eigen::MatrixXd motion_stiffness;
 };
 
-/// Energies at a step, J, as the scheme itself conserves them (docs/theory/11_transient.md says how each
-/// scheme defines them). balance = kinetic + strain + broken + damping - external_work - initial.
+/// Energies at a step, J, as the scheme itself conserves them (docs/theory/11 to 13 say how each scheme
+/// defines them). balance = kinetic + strain + broken + damping - external_work - initial.
 struct Energies {
   double kinetic = 0.0;
   double strain = 0.0;

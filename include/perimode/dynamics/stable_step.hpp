@@ -13,7 +13,7 @@ namespace perimode {
 struct StableStep {
   double limit = 0.0;      ///< s: 2/omega_max; with stiffness damping b: sqrt(b^2 + 4/omega_max^2) - b
   double omega_max = 0.0;  ///< rad/s, of K x = omega^2 M x, never below the true one (docs/theory/11)
-  double bound = 0.0;      ///< s: the sufficient step min_i sqrt(2 m_i / sum_b k_b) [silling2005]
+  double bound = 0.0;      ///< s: the sufficient step min_i sqrt(2 m_i / sum_b k_b) [silling_askari2005]
   bool symmetric = true;
   /// 1/s: rate at which undamped motion grows, max |Im sqrt(lambda)| of complex eigenvalues that an
   /// unsymmetric boundary brings about (docs/theory/03_boundaries.md). 0: none was found.
