@@ -73,6 +73,7 @@ std::string usage_error(const CLI::App& app, int argc, char** argv, std::string 
     if (word.starts_with("-")) {
       const bool known = app.get_option_no_throw(word.substr(0, word.find('='))) != nullptr;
       if (!known) what = fmt::format("expected an option of perimode, got '{}'", word);
+      if (word == "--threads") ++k;  // its number is no command
       continue;
     }
     const bool known = std::any_of(subcommands.begin(), subcommands.end(),

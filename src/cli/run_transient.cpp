@@ -111,6 +111,7 @@ template <int Dim>
 nlohmann::ordered_json transient_summary(const Case& input, const Body<Dim>& body,
                                          const TransientResult& result) {
   nlohmann::ordered_json summary = begin_summary("transient", input.title, body);
+  summary["bonds"] = count_bonds(body.bonds, body.count()) + result.broken_bonds;  // at the start
   const TransientPlan& plan = result.plan;
   summary["method"] = plan.method;
   summary["operator"] = plan.form;
@@ -157,6 +158,33 @@ TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientOpt
                                                   error.what(), checkpoint, resume_command(arguments)));
 }
 
+/// Round-off for linear, symmetric bodies, of the order of the step squared where bonds turn or break.
+void warn_of_imbalance(const TransientResult& result, Console& console) {
+  const bool exact = result.plan.form != "bond forces";
+  const double tolerated = exact ? 1e-6 : 0.05;
+  const double share = relative_balance(result.energies);
+  if (result.status != TransientStatus::done || !result.symmetric || share <= tolerated) return;
+  console.warning(fmt::format("the energies do not balance by {:.1e} of what went through: {}", share,
+                              exact ? "rounding has outgrown the motion" : "take a smaller dt"));
+}
+
+/// Files the run reads are there, and not in the result that --force would replace.
+void check_input(const std::filesystem::path& target, const std::filesystem::path& file) {
+  if (std::error_code code; !std::filesystem::exists(file, code)) {
+    invalid_input({fmt::format("the file {}", file.string()),
+                   "none",
+                   "a mode comes from `perimode modal`: run that first; paths are relative to the case file",
+                   {}});
+  }
+  const auto inside =
+      std::filesystem::weakly_canonical(file).lexically_relative(std::filesystem::weakly_canonical(target));
+  if (inside.empty() || *inside.begin() == "..") return;
+  invalid_input({"a result folder that holds no input of the case",
+                 fmt::format("{} with {}", target.string(), inside.string()),
+                 "choose another --output, or move the file",
+                 {}});
+}
+
 template <int Dim>
 int run(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
@@ -167,6 +195,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   set_unfinished_result(folder.unfinished(), arguments.resume ? "interrupted; the checkpoint is as it was"
                                                               : "interrupted; nothing was written");
   const Sink sink = console.sink();
+  for (const std::filesystem::path& file : input.files) check_input(folder.target(), file);
   const std::string digest = case_digest(input.canonical, input.files);
   std::optional<Checkpoint> from;
   if (arguments.resume) from = read_checkpoint(folder.temporary(), digest, sink);
@@ -217,6 +246,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
 
   fmt::print("{}results in {}\n", transient_text(body, result), folder.target().string());
   std::fflush(stdout);
+  warn_of_imbalance(result, console);
   if (result.status == TransientStatus::done) return 0;
   console.error(result.message);
   return 1;

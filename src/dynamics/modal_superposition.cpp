@@ -99,16 +99,8 @@ class ModalSuperposition final : public Integrator {
  public:
   ModalSuperposition(const Motion& motion, double dt, const Eigen::MatrixXd& modes,
                      const Eigen::VectorXd& lambda)
-      : motion_(&motion), dt_(dt), modes_(modes), lambda_(lambda.cwiseMax(0.0)) {
-    const double rate = uniform_rate(motion);
-    damping_ = (rate + motion.stiffness_damping * lambda_.array()).matrix();
-    load_.resize(static_cast<Eigen::Index>(motion.force.size()), modes.cols());
-    for (Eigen::Index j = 0; j < modes.cols(); ++j) {
-      step_of_.push_back(mode_step(lambda_[j], damping_[j], dt));
-      const Eigen::VectorXd shape = modes.col(j);
-      for (Eigen::Index k = 0; k < load_.rows(); ++k)
-        load_(k, j) = dot(motion.force[static_cast<std::size_t>(k)], shape);
-    }
+      : motion_(&motion), dt_(dt) {
+    set_modes(modes, lambda.cwiseMax(0.0));
   }
 
   void start(const Eigen::VectorXd& q, const Eigen::VectorXd& v) override {
@@ -193,10 +185,16 @@ class ModalSuperposition final : public Integrator {
     }
     perimode::save("h", h_, state);
     perimode::save(ledger_, dt_, state);
+    // Modes solved for once more need not be the same to the last bit, nor the same of a repeated frequency.
+    perimode::save("lambda", lambda_, state);
+    perimode::save("modes", modes_.reshaped(), state);
     return state;
   }
 
   void restore(const IntegratorState& state) override {
+    const Eigen::VectorXd lambda = saved(state, "lambda", modes_.cols());
+    const Eigen::VectorXd modes = saved(state, "modes", modes_.size());
+    set_modes(modes.reshaped(modes_.rows(), modes_.cols()), lambda);
     for (const auto& [name, x] : {std::pair{"y", &y_}, std::pair{"v", &v_}}) {
       const Eigen::VectorXd high = saved(state, name, modes_.cols());
       const Eigen::VectorXd low = saved(state, std::string(name) + "_rest", modes_.cols());
@@ -211,6 +209,20 @@ class ModalSuperposition final : public Integrator {
   }
 
  private:
+  void set_modes(const Eigen::MatrixXd& modes, const Eigen::VectorXd& lambda) {
+    modes_ = modes;
+    lambda_ = lambda;
+    damping_ = (uniform_rate(*motion_) + motion_->stiffness_damping * lambda_.array()).matrix();
+    load_.resize(static_cast<Eigen::Index>(motion_->force.size()), modes_.cols());
+    step_of_.clear();
+    for (Eigen::Index j = 0; j < modes_.cols(); ++j) {
+      step_of_.push_back(mode_step(lambda_[j], damping_[j], dt_));
+      const Eigen::VectorXd shape = modes_.col(j);
+      for (Eigen::Index k = 0; k < load_.rows(); ++k)
+        load_(k, j) = dot(motion_->force[static_cast<std::size_t>(k)], shape);
+    }
+  }
+
   static Eigen::VectorXd narrow(const std::vector<Real>& x) {
     Eigen::VectorXd out(static_cast<Eigen::Index>(x.size()));
     for (std::size_t j = 0; j < x.size(); ++j) out[static_cast<Eigen::Index>(j)] = static_cast<double>(x[j]);

@@ -39,14 +39,18 @@ Eigen::VectorXd free_part(const BoundaryMap<Dim>& boundary, const Eigen::VectorX
 template <int Dim>
 class Everywhere {
  public:
-  Everywhere(const BoundaryMap<Dim>& boundary, double dt) : boundary_(&boundary), dt_(dt) {}
+  Everywhere(const BoundaryMap<Dim>& boundary, double dt, double end)
+      : boundary_(&boundary), dt_(dt), end_(end) {}
 
   void move_to(double t) {
     h_.clear();
     rate_.clear();
+    // Functions of time are asked about the time of the run alone.
+    const double before = std::max(t - dt_, 0.0);
+    const double after = std::max(std::min(t + dt_, end_), t);
     for (const TimeFunction& f : boundary_->time) {
       h_.push_back(value_at(f, t));
-      rate_.push_back((value_at(f, t + dt_) - value_at(f, t - dt_)) / (2.0 * dt_));
+      rate_.push_back((value_at(f, after) - value_at(f, before)) / (after - before));
     }
   }
 
@@ -79,7 +83,7 @@ class Everywhere {
   }
 
   const BoundaryMap<Dim>* boundary_;
-  double dt_;
+  double dt_, end_;
   std::vector<double> h_, rate_;
 };
 
@@ -159,6 +163,14 @@ std::unique_ptr<Integrator> modal_integrator(const Body<Dim>& body, const Transi
   if (modes.status == EigenStatus::not_converged)
     throw Error(ErrorKind::solver_failure, "the modes did not converge: " + modes.message);
   result.truncation = truncation(motion, modes.shape, modes.eigenvalue, q, v);
+  const double left_out = std::max(result.truncation.initial_energy, result.truncation.load);
+  constexpr double much = 0.1;
+  if (left_out > much) {
+    sink.warn(fmt::format("{} modes leave out {:.0f} % of the {}; take more of them, or another method",
+                          modes.count(), 100.0 * left_out,
+                          result.truncation.load > result.truncation.initial_energy ? "loads or given motions"
+                                                                                    : "initial energy"));
+  }
   return modal_superposition(motion, dt, modes.shape, modes.eigenvalue);
 }
 
@@ -193,7 +205,7 @@ class Stepper {
         run_(&run),
         probes_(place_probes(body, options.probes)),
         field_steps_(field_steps(options, result.plan)),
-        everywhere_(body.boundary, result.plan.dt) {
+        everywhere_(body.boundary, result.plan.dt, result.plan.dt * static_cast<double>(result.plan.steps)) {
     needs_velocity_ = std::any_of(probes_.begin(), probes_.end(), [](const PlacedProbe<Dim>& p) {
       return p.kind == TransientProbe::Kind::velocity;
     });
@@ -215,11 +227,14 @@ class Stepper {
     settle();
     const std::int64_t step = result_->step;
     if (is_row(step) && !row(step)) return false;
-    if (observer_->fields && std::binary_search(field_steps_.begin(), field_steps_.end(), step)) frame(step);
-    if (observer_->checkpoint && options_->checkpoint_every > 0 && step % options_->checkpoint_every == 0 &&
-        step > result_->first_step && step < result_->plan.steps) {
-      observer_->checkpoint(saved(*run_));
-    }
+    const bool framed =
+        observer_->fields && std::binary_search(field_steps_.begin(), field_steps_.end(), step);
+    const bool kept = observer_->checkpoint && options_->checkpoint_every > 0 &&
+                      step % options_->checkpoint_every == 0 && step > result_->first_step &&
+                      step < result_->plan.steps;
+    if ((framed || kept) && !run_->integrator->displacement().allFinite()) return false;
+    if (framed) frame(step);
+    if (kept) observer_->checkpoint(saved(*run_));
     return true;
   }
 
@@ -256,8 +271,17 @@ class Stepper {
     return true;
   }
 
+  /// Ghosts that move on their own are where they are at that instant.
   void frame(std::int64_t step) {
-    observer_->fields({step, result_->time, displacement(), velocity(), body_});
+    const TransientFrame<Dim> now{step, result_->time, displacement(), velocity(), body_};
+    const bool moving = !body_->boundary.value_time.empty();
+    BoundaryMap<Dim> full;
+    if (moving) {
+      full = body_->boundary;
+      body_->boundary = at_time(full, result_->time);
+    }
+    observer_->fields(now);
+    if (moving) body_->boundary = std::move(full);
   }
 
   Body<Dim>* body_;
@@ -330,7 +354,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   if (!sound) {
     result.status = TransientStatus::unstable;
     result.message = fmt::format(
-        "displacements grew beyond all measure before step {}{}", result.step,
+        "displacements grew beyond all measure by step {}{}", result.step,
         result.symmetric ? "" : ": an unsymmetric boundary can feed waves; use other walls or damping");
   }
   result.seconds_steps = seconds_since(stepping);

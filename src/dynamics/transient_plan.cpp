@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dynamics/probes.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -45,12 +46,36 @@ const char* form_name(const Body<Dim>& body, const TransientOptions& options) {
   return std::holds_alternative<GridBonds<Dim>>(body.bonds) ? "stencil" : "bonds";
 }
 
-void refuse_step(const TransientOptions& options, const TransientPlan& plan) {
-  invalid_input({fmt::format("a step dt <= {:.6g} s, the stable step of this body (omega_max = {:.6g} rad/s; "
-                             "sufficient: {:.6g} s)",
-                             plan.stable.limit, plan.stable.omega_max, plan.stable.bound),
-                 fmt::format("{:.6g} s", options.dt), "use a smaller dt, dt: auto, or method: newmark",
-                 options.where});
+void refuse_step(const TransientOptions& options, const TransientPlan& plan, double limit) {
+  invalid_input(
+      {fmt::format("a step dt <= {:.6g} s, the stable step of this body (omega_max = {:.6g} rad/s; "
+                   "sufficient: {:.6g} s)",
+                   limit, plan.stable.omega_max, plan.stable.bound),
+       fmt::format("{:.6g} s", options.dt),
+       options.method == TimeMethod::newmark
+           ? "use a smaller dt, dt: auto, or beta >= gamma/2, which is stable for every step"
+           : "use a smaller dt, dt: auto, or method: newmark",
+       options.dt_where.line > 0 || !options.dt_where.file.empty() ? options.dt_where : options.where});
+}
+
+/// Largest step that does not let motion grow, s: that of central differences, and of Newmark's method with
+/// beta < gamma/2, omega dt <= 1/sqrt(gamma/2 - beta) [hughes2000].
+double largest_step(const TransientOptions& options, const StableStep& stable) {
+  if (options.method == TimeMethod::central_difference) return stable.limit;
+  const double lack = 0.5 * options.newmark.gamma - options.newmark.beta;
+  if (options.method != TimeMethod::newmark || lack <= 0.0 || stable.omega_max == 0.0)
+    return std::numeric_limits<double>::infinity();
+  return 1.0 / (std::sqrt(lack) * stable.omega_max);
+}
+
+/// Steps to the end; more than can be counted, let alone waited for, are refused.
+std::int64_t counted_steps(double steps, const TransientOptions& options) {
+  constexpr double most = 1e12;
+  if (!(steps <= most)) {
+    invalid_input({fmt::format("at most {:.0e} steps", most), fmt::format("{:.3g}", steps),
+                   "make end smaller or dt larger", options.where});
+  }
+  return std::max<std::int64_t>(static_cast<std::int64_t>(steps), 1);
 }
 
 }  // namespace
@@ -88,6 +113,10 @@ void check_options(const Body<Dim>& body, const TransientOptions& options) {
                    "use central_difference, or leave out fracture_energy and critical_stretch",
                    options.where});
   }
+  if (needs_bond_forces(options) && options.form != StiffnessForm::automatic) {
+    invalid_input({"operator: auto for bonds that turn or break", "another",
+                   "remove `operator`: such bonds have forces of their own", options.where});
+  }
   for (const double t : options.fields_at) {
     if (t < 0.0 || t > options.end * (1.0 + 1e-9)) {
       invalid_input({fmt::format("times of fields_at from 0 to end = {} s", options.end),
@@ -108,14 +137,14 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
                               explicit_method ? options.rayleigh_stiffness : 0.0);
   }
   if (options.dt == 0.0) {
-    plan.steps = static_cast<std::int64_t>(
-        std::ceil(options.end / (share_of_limit * plan.stable.limit) * (1.0 - 1e-12)));
-    plan.steps = std::max<std::int64_t>(plan.steps, 1);
+    const double limit = std::min(plan.stable.limit, largest_step(options, plan.stable));
+    plan.steps = counted_steps(std::ceil(options.end / (share_of_limit * limit) * (1.0 - 1e-12)), options);
     plan.dt = options.end / static_cast<double>(plan.steps);
   } else {
     plan.dt = options.dt;
-    plan.steps = std::max<std::int64_t>(std::llround(options.end / options.dt), 1);
-    if (explicit_method && options.dt > plan.stable.limit * (1.0 + 1e-12)) refuse_step(options, plan);
+    plan.steps = counted_steps(std::round(options.end / options.dt), options);
+    const double limit = largest_step(options, plan.stable);
+    if (options.dt > limit * (1.0 + 1e-12)) refuse_step(options, plan, limit);
   }
   const double grown = plan.stable.growth * plan.dt * static_cast<double>(plan.steps);
   if (grown > 0.1) {
@@ -139,6 +168,7 @@ std::vector<std::int64_t> field_steps(const TransientOptions& options, const Tra
     steps.push_back(std::clamp<std::int64_t>(std::llround(t / plan.dt), 0, plan.steps));
   if (options.fields_every > 0) {
     for (std::int64_t n = 0; n <= plan.steps; n += options.fields_every) steps.push_back(n);
+    steps.push_back(plan.steps);
   }
   if (steps.empty()) steps.push_back(plan.steps);
   std::sort(steps.begin(), steps.end());

@@ -19,9 +19,9 @@ struct InputFiles {
   std::filesystem::path directory = {};
   std::vector<std::filesystem::path> found = {};
 
-  /// The existing file that a value of the case names. Throws invalid_input, at the value, where there is
-  /// none.
-  std::filesystem::path add(const Cursor& cursor, const char* example);
+  /// The file that a value of the case names. Throws invalid_input, at the value, where there is none, unless
+  /// it may still have to be made, as by another analysis of the case.
+  std::filesystem::path add(const Cursor& cursor, const char* example, bool from_a_run = false);
 };
 
 /// One of "x-", "x+", "y-", ...

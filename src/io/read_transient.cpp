@@ -87,6 +87,7 @@ void read_times(const Section& section, TransientOptions& options) {
   options.end = end.number({"s", "1.0e-3"});
   if (const auto dt = section.find("dt"); dt && dt->node().text != "auto") {
     options.dt = dt->number({"s (or auto)", "1.0e-7"});
+    options.dt_where = dt->where();
     if (options.dt > options.end * (1.0 + 1e-9)) {
       dt->complain(fmt::format("a step of at most {} s, the end", options.end),
                    "give a shorter step, or auto");
@@ -116,7 +117,7 @@ InitialField read_field(const Cursor& cursor, int dimension, InputFiles& files) 
     return TableField{files.add(*section.find("file"), "initial.csv")};
   }
   const Section mode(*section.find("mode"), {"file", "number", "scale"});
-  ModeField field{files.add(mode.need("file", "out/modes.exo"), "out/modes.exo")};
+  ModeField field{files.add(mode.need("file", "out/modes.exo"), "out/modes.exo", true)};
   field.mode = mode.need("number", "1").integer(1, "1");
   if (const auto scale = mode.find("scale")) field.scale = scale->number({"", "1.0e-3", Sign::any});
   return field;

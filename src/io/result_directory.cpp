@@ -102,7 +102,6 @@ void remove_unfinished(const UnfinishedResult& unfinished) noexcept {
   }
 }
 
-
 ResultDirectory::ResultDirectory(const fs::path& target, bool force) {
   try {
     target_ = full_path(target);

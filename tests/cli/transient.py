@@ -139,7 +139,7 @@ class Results(TransientTest):
         last = summary["steps"]
         self.assertEqual(steps, sorted({*range(0, last + 1, 3), last}))
         frames = len(exodus.doubles(exodus.variables(self.result("plate") / "fields.exo")["time_whole"]))
-        self.assertEqual(frames, last // 20 + 1)
+        self.assertEqual(frames, len({*range(0, last + 1, 20), last}))
 
     def test_an_unsymmetric_boundary_shows_its_work(self):
         self.run_case(BAR.replace("{ wall: x+, type: odd }", "{ wall: x+, type: surface_nodes }"))

@@ -75,6 +75,7 @@ struct TransientOptions {
   int fields_every = 0;                       ///< steps; 0: none but fields_at
   int checkpoint_every = 0;                   ///< steps; 0: none but at an interruption
   std::vector<double> critical_stretch = {};  ///< per block; empty: unbreakable
+  Where dt_where = {};
   Where where = {};
 };
 

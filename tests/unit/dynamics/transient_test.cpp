@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "perimode/assembly/fields.hpp"
 #include "support/models.hpp"
 
 namespace perimode {
@@ -156,6 +157,42 @@ TEST(Transient, EnergyOfGivenMotionIsTheWorkOfItsReaction) {
   }
 }
 
+/// Prescribed motion that is only defined while the run lasts, and its speed at the start and the end.
+TEST(Transient, FunctionsOfTimeAreAskedAboutTheRunAlone) {
+  Model m = bar(20);
+  const TimeFunction root{TimeFunction::Kind::expression, 0.0, 0.0, {}, {}, Expression("sqrt(t*(1-t))+2*t")};
+  m.boundary.push_back({Prescribe{{{0, 1.0}}, face(0, false, 3), root}, {}});
+  TransientOptions options = until(1.0);
+  options.dt = 1.0 / 64.0;
+  options.probes = {{"v", TransientProbe::Kind::velocity, {0.0}, {}, {}}};
+  const Recorded r = record<1>(m, options);
+  const double h = std::sqrt(options.dt * (1.0 - options.dt));
+  EXPECT_NEAR(r.rows.front().probes[0], h / options.dt + 2.0, 1e-12);
+  EXPECT_NEAR(r.rows.back().probes[0], -h / options.dt + 2.0, 1e-12);
+}
+
+/// A surface that moves by a ramp has not moved at the start: fields there show a body at rest.
+TEST(Transient, FieldsKnowWhereSurfacesAre) {
+  Model m = bar(20);
+  Wall wall{{0, true},
+            WallType::surface_nodes,
+            {Expression("0.01")},
+            {},
+            {TimeFunction::Kind::ramp, 10.0, 0.0, {}, {}, {}}};
+  m.boundary.push_back({wall, {}});
+  Body<1> body = build_body<1>(m);
+  TransientOptions options = until(1.0);
+  options.fields_at = {0.0};
+  double largest = -1.0;
+  TransientObserver<1> observer;
+  observer.fields = [&](const TransientFrame<1>& frame) {
+    largest = strain(*frame.body, frame.displacement).cwiseAbs().maxCoeff();
+  };
+  (void)run_transient(body, options, {}, observer);
+  EXPECT_EQ(largest, 0.0);
+  EXPECT_GT(strain(body, Eigen::VectorXd::Zero(20)).cwiseAbs().maxCoeff(), 1e-3);  // the map is in full again
+}
+
 TEST(Transient, DampingDissipatesWhatIsLost) {
   for (const TimeMethod method : methods) {
     TransientOptions options = with_method(until(1.0), method);
@@ -238,7 +275,7 @@ TEST(Transient, FieldsComeAtTheNearestSteps) {
   EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(0, 25, 26, 100));
   options.fields_at = {};
   options.fields_every = 40;
-  EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(0, 40, 80));
+  EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(0, 40, 80, 100));
   options.fields_every = 0;
   EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(100));
   options.fields_at = {1.2};
@@ -430,6 +467,18 @@ TEST(Transient, OptionsThatDoNotFitAreRefused) {
   options.method = TimeMethod::newmark;
   options.kinematics = Kinematics::large_rotation;
   EXPECT_THAT(message(options, bar(20)), HasSubstr("central_difference with kinematics"));
+  options = until(1.0);
+  options.dt = 1e-20;
+  EXPECT_THAT(message(options, bar(20)), HasSubstr("at most 1e+12 steps"));
+  options = until(1.0);
+  options.method = TimeMethod::newmark;
+  options.newmark.beta = 0.1;
+  options.dt = 0.2;
+  EXPECT_THAT(message(options, bar(20)), HasSubstr("beta >= gamma/2"));
+  options = until(1.0);
+  options.kinematics = Kinematics::large_rotation;
+  options.form = StiffnessForm::bonds;
+  EXPECT_THAT(message(options, bar(20)), HasSubstr("operator: auto"));
   options = until(1.0);
   options.loads = {{Traction{{1.0}}, Region{BoxRegion{{3.0}, {4.0}}, {}}, {}, {}}};
   EXPECT_THAT(message(options, bar(20)), HasSubstr("region that holds at least one particle"));

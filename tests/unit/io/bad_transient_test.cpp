@@ -155,11 +155,11 @@ const BadCase initial[] = {
      "analysis",
      PERIMODE_TRANSIENT("{ end: 1, initial: { velocity: { file: ^v0.csv } } }"),
      {"an existing file"}},
-    {"mode_without_number",
+    {"mode_number",
      "plate",
      "analysis",
-     PERIMODE_TRANSIENT("{ end: 1, initial: { velocity: { mode: { file: ^cloud.exo } } } }"),
-     {"an existing file"}},
+     PERIMODE_TRANSIENT("{ end: 1, initial: { velocity: { mode: { file: modes.exo, number: ^0 } } } }"),
+     {">= 1"}},
 };
 
 const BadCase around[] = {
