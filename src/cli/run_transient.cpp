@@ -161,7 +161,7 @@ TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientOpt
 /// Round-off for linear, symmetric bodies, of the order of the step squared where bonds turn or break.
 void warn_of_imbalance(const TransientResult& result, Console& console) {
   const bool exact = result.plan.form != "bond forces";
-  const double tolerated = exact ? 1e-6 : 0.05;
+  const double tolerated = exact ? 1e-6 : 0.1;
   const double share = relative_balance(result.energies);
   if (result.status != TransientStatus::done || !result.symmetric || share <= tolerated) return;
   console.warning(fmt::format("the energies do not balance by {:.1e} of what went through: {}", share,

@@ -256,9 +256,8 @@ class Stepper {
     result_->broken_bonds = row.broken_bonds;
     const double held = row.energies.kinetic + row.energies.strain;
     if (!std::isfinite(held)) return false;
-    constexpr double beyond_belief = 1e4;
     put_in_ = std::max(put_in_, row.energies.initial + std::abs(row.energies.external_work));
-    if (!result_->symmetric && put_in_ > 0.0 && held > beyond_belief * put_in_) return false;
+    if (fed_by_boundary(held)) return false;
     if (observer_->history) {
       const Eigen::VectorXd& q = run_->integrator->displacement();
       const Eigen::VectorXd v = needs_velocity_ ? run_->integrator->velocity() : Eigen::VectorXd();
@@ -269,6 +268,14 @@ class Stepper {
       observer_->history(row);
     }
     return true;
+  }
+
+  /// Whether waves that the boundary feeds have had the time to outgrow everything else, and have.
+  [[nodiscard]] bool fed_by_boundary(double held) const {
+    constexpr double hundredfold = 4.6;  // exp of it
+    constexpr double beyond_belief = 1e4;
+    return result_->plan.stable.growth * result_->time > hundredfold && put_in_ > 0.0 &&
+           held > beyond_belief * put_in_;
   }
 
   /// Ghosts that move on their own are where they are at that instant.

@@ -8,7 +8,10 @@
 #include <limits>
 
 #include "dynamics/probes.hpp"
+#include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
+#include "perimode/linalg/factor.hpp"
+#include "perimode/modal/plan.hpp"
 
 namespace perimode {
 
@@ -153,12 +156,6 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
         "{:.3g} 1/s, exp({:.3g}) over this run; use mirror, antimirror or zero_layer walls, or damping",
         plan.stable.growth, grown));
   }
-  const double dofs = body.boundary.free;
-  const double all_dofs = static_cast<double>(body.count()) * Dim;
-  // State, forces and the work of the integrator; the frames and fields that are written.
-  const double vectors = explicit_method ? 5.0 : implicit_method ? 14.0 : 4.0 + options.modes;
-  plan.memory_bytes = body_bytes(body) + operator_bytes(body, options.form) +
-                      sizeof(double) * (vectors * dofs + 6.0 * all_dofs);
   return plan;
 }
 
@@ -176,6 +173,39 @@ std::vector<std::int64_t> field_steps(const TransientOptions& options, const Tra
   return steps;
 }
 
+namespace {
+
+/// Peak of a run, bytes.
+template <int Dim>
+double predicted_memory(const Body<Dim>& body, const TransientOptions& options, const TransientPlan& plan) {
+  constexpr double program_bytes = 36e6;  // code, libraries and their work space
+  const double dofs = body.boundary.free;
+  const double all_dofs = static_cast<double>(body.count()) * Dim;
+  const double common = body_bytes(body) + operator_bytes(body, options.form) + program_bytes;
+  if (options.method == TimeMethod::modal) {
+    ModalOptions modal;
+    modal.modes = std::min<int>(options.modes, body.boundary.free);
+    const double shapes = sizeof(double) * dofs * *modal.modes;
+    return std::max(plan_modes(body, modal).memory_bytes, common + 2.0 * shapes);
+  }
+  // State, forces and the work of the integrator; the frames and fields that are written.
+  const bool explicit_method = options.method == TimeMethod::central_difference;
+  double vectors = explicit_method ? 5.0 : 14.0;
+  if (needs_bond_forces(options))
+    vectors += 2.0 + 4.0 / Dim;  // over the padded grid; properties of particles
+  const double bytes = common + sizeof(double) * (vectors * dofs + 6.0 * all_dofs);
+  const bool cholesky = plan.solver.starts_with("cholesky");
+  if (!cholesky && !plan.solver.starts_with("lu")) return bytes;
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  const FillEstimate fill =
+      predict_fill_with_order(k, dissection_order(k, particle_of_free_dof(body), particle_positions(body)));
+  // UMFPACK keeps L, U and working copies; its column order fills more than a symmetric one.
+  return bytes + 12.0 * static_cast<double>(k.nonzeros()) +
+         (cholesky ? fill.peak_bytes : 6.3 * fill.factor_bytes);
+}
+
+}  // namespace
+
 template <int Dim>
 TransientPlan plan_transient(const Body<Dim>& body, const TransientOptions& options) {
   check_options(body, options);
@@ -183,9 +213,10 @@ TransientPlan plan_transient(const Body<Dim>& body, const TransientOptions& opti
   const Motion motion = make_motion(body, options);
   TransientPlan plan = plan_steps(body, options, motion);
   if (options.method == TimeMethod::newmark || options.method == TimeMethod::hht) {
-    plan.solver =
-        describe_shifted_solver(body, motion.symmetric, options.solver, plan.dt / plan.stable.limit);
+    plan.solver = describe_shifted_solver(body, motion.symmetric, options.solver, plan.dt / plan.stable.limit,
+                                          options.tolerance);
   }
+  plan.memory_bytes = predicted_memory(body, options, plan);
   return plan;
 }
 

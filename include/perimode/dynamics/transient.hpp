@@ -128,7 +128,7 @@ struct TransientPlan {
   StableStep stable;
   double dt = 0.0;
   std::int64_t steps = 0;
-  double memory_bytes = 0.0;
+  double memory_bytes = 0.0;  ///< predicted peak; by plan_transient alone
   std::vector<std::string> warnings = {};
 };
 

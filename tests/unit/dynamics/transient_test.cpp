@@ -1,117 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perimode/dynamics/transient.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "perimode/assembly/fields.hpp"
-#include "support/models.hpp"
+#include "unit/dynamics/transient_runs.hpp"
 
 namespace perimode {
 namespace {
 
-using test::add_wall;
 using test::add_walls;
+using test::bar;
+using test::blow;
 using test::box_model;
-using test::fix_face;
+using test::face;
+using test::half_sine;
+using test::largest_imbalance;
+using test::methods;
+using test::plate;
+using test::plate_blow;
+using test::record;
+using test::Recorded;
+using test::until;
+using test::with_method;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-Region face(int axis, bool upper, int layers) { return {FaceRegion{{axis, upper}, layers, 0.0}, {}}; }
-
-TimeFunction half_sine(double t) { return {TimeFunction::Kind::half_sine, t, 0.0, {}, {}, {}}; }
-
-/// A bar of `n` particles and length 1, E = rho = 1: waves travel at about 1.
-Model bar(int n) {
-  Model m = box_model({n}, 1.0 / n, 3.0);
-  m.volume_correction = VolumeCorrection::linear;
-  return m;
-}
-
-/// A plate held at x-, 12 x 8 particles of 0.1.
-Model plate() {
-  Model m = box_model({12, 8}, 0.1, 3.0);
-  m.volume_correction = VolumeCorrection::linear;
-  fix_face(m, 0, false, 2, {0, 1});
-  return m;
-}
-
-TransientOptions until(double end) {
-  TransientOptions options;
-  options.end = end;
-  return options;
-}
-
-/// A blow on the free end of a bar.
-Load blow(double seconds) { return {Traction{{1e-3}}, face(0, true, 1), half_sine(seconds), {}}; }
-Load plate_blow(double seconds) {
-  return {Traction{{1e-3, -5e-4}}, face(0, true, 1), half_sine(seconds), {}};
-}
-
-/// u = f(x) along x at the start.
-template <int Dim, class F>
-InitialState displaced(const Body<Dim>& body, const F& f) {
-  InitialState state;
-  state.displacement = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(body.count()) * Dim);
-  for (Index i = 0; i < body.count(); ++i)
-    state.displacement[static_cast<Eigen::Index>(i) * Dim] = f(body.particles.position[i][0]);
-  return state;
-}
-
-struct Recorded {
-  std::vector<HistoryRow> rows;
-  std::vector<std::int64_t> frames;
-  std::vector<IntegratorState> checkpoints;
-  TransientResult result;
-};
-
-template <int Dim>
-Recorded record(const Model& model, const TransientOptions& options, bool initial_bump = false,
-                const IntegratorState* resume = nullptr, std::int64_t stop_at = -1) {
-  Body<Dim> body = build_body<Dim>(model);
-  Recorded r;
-  std::int64_t step = 0;
-  TransientObserver<Dim> observer;
-  observer.history = [&](const HistoryRow& row) {
-    r.rows.push_back(row);
-    step = row.step;
-  };
-  observer.fields = [&](const TransientFrame<Dim>& frame) { r.frames.push_back(frame.step); };
-  observer.checkpoint = [&](const IntegratorState& state) { r.checkpoints.push_back(state); };
-  observer.stop = [&] { return stop_at >= 0 && step >= stop_at; };
-  const InitialState initial = initial_bump ? displaced(body,
-                                                        [](double x) {  // its waves are about 0.22 long
-                                                          const double s = (x - 0.5) * (x - 0.5) / 0.0025;
-                                                          return 1e-3 * (1.0 - 2.0 * s) * std::exp(-s);
-                                                        })
-                                            : InitialState{};
-  r.result = run_transient(body, options, initial, observer, resume);
-  return r;
-}
-
-double largest_imbalance(const Recorded& r) {
-  double largest = 0.0;
-  double scale = 0.0;
-  for (const HistoryRow& row : r.rows) {
-    largest = std::max(largest, std::abs(row.energies.balance()));
-    scale = std::max(scale, row.energies.kinetic + row.energies.strain);
-  }
-  return largest / scale;
-}
-
-constexpr TimeMethod methods[] = {TimeMethod::central_difference, TimeMethod::newmark, TimeMethod::hht,
-                                  TimeMethod::modal};
-
-TransientOptions with_method(TransientOptions options, TimeMethod method) {
-  options.method = method;
-  if (method == TimeMethod::hht) options.newmark.alpha = -0.1;
-  options.modes = 10000;
-  return options;
-}
 
 TEST(Transient, AutomaticStepHitsTheEndWithinNineTenthsOfTheLimit) {
   const Recorded r = record<1>(bar(50), until(0.37));
@@ -157,42 +72,6 @@ TEST(Transient, EnergyOfGivenMotionIsTheWorkOfItsReaction) {
   }
 }
 
-/// Prescribed motion that is only defined while the run lasts, and its speed at the start and the end.
-TEST(Transient, FunctionsOfTimeAreAskedAboutTheRunAlone) {
-  Model m = bar(20);
-  const TimeFunction root{TimeFunction::Kind::expression, 0.0, 0.0, {}, {}, Expression("sqrt(t*(1-t))+2*t")};
-  m.boundary.push_back({Prescribe{{{0, 1.0}}, face(0, false, 3), root}, {}});
-  TransientOptions options = until(1.0);
-  options.dt = 1.0 / 64.0;
-  options.probes = {{"v", TransientProbe::Kind::velocity, {0.0}, {}, {}}};
-  const Recorded r = record<1>(m, options);
-  const double h = std::sqrt(options.dt * (1.0 - options.dt));
-  EXPECT_NEAR(r.rows.front().probes[0], h / options.dt + 2.0, 1e-12);
-  EXPECT_NEAR(r.rows.back().probes[0], -h / options.dt + 2.0, 1e-12);
-}
-
-/// A surface that moves by a ramp has not moved at the start: fields there show a body at rest.
-TEST(Transient, FieldsKnowWhereSurfacesAre) {
-  Model m = bar(20);
-  Wall wall{{0, true},
-            WallType::surface_nodes,
-            {Expression("0.01")},
-            {},
-            {TimeFunction::Kind::ramp, 10.0, 0.0, {}, {}, {}}};
-  m.boundary.push_back({wall, {}});
-  Body<1> body = build_body<1>(m);
-  TransientOptions options = until(1.0);
-  options.fields_at = {0.0};
-  double largest = -1.0;
-  TransientObserver<1> observer;
-  observer.fields = [&](const TransientFrame<1>& frame) {
-    largest = strain(*frame.body, frame.displacement).cwiseAbs().maxCoeff();
-  };
-  (void)run_transient(body, options, {}, observer);
-  EXPECT_EQ(largest, 0.0);
-  EXPECT_GT(strain(body, Eigen::VectorXd::Zero(20)).cwiseAbs().maxCoeff(), 1e-3);  // the map is in full again
-}
-
 TEST(Transient, DampingDissipatesWhatIsLost) {
   for (const TimeMethod method : methods) {
     TransientOptions options = with_method(until(1.0), method);
@@ -230,106 +109,6 @@ TEST(Transient, LoadsAddUp) {
   const Eigen::VectorXd sum =
       record<2>(plate(), first).result.displacement + record<2>(plate(), second).result.displacement;
   EXPECT_LE((record<2>(plate(), both).result.displacement - sum).norm(), 1e-13 * sum.norm());
-}
-
-TEST(Transient, ResumesBitForBit) {
-  for (const TimeMethod method : methods) {
-    TransientOptions options = with_method(until(0.6), method);
-    options.loads = {plate_blow(0.3)};
-    options.dt = 0.02;
-    options.rayleigh_mass = 0.5;
-    options.checkpoint_every = 7;
-    options.history_every = 3;
-    const Recorded whole = record<2>(plate(), options);
-    ASSERT_GT(whole.checkpoints.size(), 1U);
-    for (const IntegratorState& state : whole.checkpoints) {
-      const Recorded rest = record<2>(plate(), options, false, &state);
-      EXPECT_EQ(rest.result.first_step, state.step);
-      EXPECT_EQ(rest.result.displacement, whole.result.displacement);
-      EXPECT_EQ(rest.result.velocity, whole.result.velocity);
-      EXPECT_EQ(rest.rows.back().energies.external_work, whole.rows.back().energies.external_work);
-      EXPECT_EQ(rest.rows.back().energies.damping, whole.rows.back().energies.damping);
-      EXPECT_EQ(rest.rows.back().energies.strain, whole.rows.back().energies.strain);
-    }
-  }
-}
-
-TEST(Transient, StopsAfterTheStepWithACheckpoint) {
-  TransientOptions options = until(0.6);
-  options.dt = 0.02;
-  options.loads = {plate_blow(0.3)};
-  const Recorded whole = record<2>(plate(), options);
-  const Recorded part = record<2>(plate(), options, false, nullptr, 5);
-  EXPECT_EQ(part.result.status, TransientStatus::interrupted);
-  ASSERT_EQ(part.checkpoints.size(), 1U);
-  EXPECT_EQ(part.checkpoints[0].step, 5);
-  const Recorded rest = record<2>(plate(), options, false, part.checkpoints.data());
-  EXPECT_EQ(rest.rows.front().step, 6);
-  EXPECT_EQ(rest.result.displacement, whole.result.displacement);
-}
-
-TEST(Transient, FieldsComeAtTheNearestSteps) {
-  TransientOptions options = until(1.0);
-  options.dt = 0.01;
-  options.fields_at = {0.0, 0.254, 0.256, 1.0};
-  EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(0, 25, 26, 100));
-  options.fields_at = {};
-  options.fields_every = 40;
-  EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(0, 40, 80, 100));
-  options.fields_every = 0;
-  EXPECT_THAT(record<1>(bar(50), options).frames, ElementsAre(100));
-  options.fields_at = {1.2};
-  EXPECT_THROW((void)record<1>(bar(50), options), Error);
-}
-
-TEST(Transient, RowsComeAsAskedAndAtTheEnd) {
-  TransientOptions options = until(1.0);
-  options.dt = 0.01;
-  options.history_every = 30;
-  std::vector<std::int64_t> steps;
-  for (const HistoryRow& row : record<1>(bar(50), options).rows) steps.push_back(row.step);
-  EXPECT_THAT(steps, ElementsAre(0, 30, 60, 90, 100));
-}
-
-/// Two particles pulled apart as 2e-3 x: displacement, strain and their rates.
-TEST(Transient, ProbesShowTheirParticles) {
-  const Model m = bar(10);
-  Body<1> body = build_body<1>(m);
-  TransientOptions options = until(0.05);
-  using Kind = TransientProbe::Kind;
-  options.probes = {{"u", Kind::displacement, {0.31}, {}, {}},
-                    {"tie", Kind::displacement, {0.4}, {}, {}},
-                    {"v", Kind::velocity, {0.0}, {}, {}},
-                    {"e", Kind::strain, {0.75}, {0.35}, {}}};
-  EXPECT_THAT(probe_columns(options.probes, 1), ElementsAre("u_x", "tie_x", "v_x", "e"));
-  EXPECT_THAT(probe_columns({options.probes[2]}, 3), ElementsAre("v_x", "v_y", "v_z"));
-  InitialState state = displaced(body, [](double x) { return 2e-3 * x; });
-  state.velocity = Eigen::VectorXd::Constant(10, 0.25);
-  std::vector<double> first;
-  TransientObserver<1> observer;
-  observer.history = [&](const HistoryRow& row) {
-    if (row.step == 0) first = row.probes;
-  };
-  (void)run_transient(body, options, state, observer);
-  ASSERT_EQ(first.size(), 4U);
-  EXPECT_DOUBLE_EQ(first[0], 2e-3 * 0.35);
-  EXPECT_DOUBLE_EQ(first[1], 2e-3 * 0.45);  // a tie goes to the higher coordinate
-  EXPECT_NEAR(first[2], 0.25, 1e-12);
-  EXPECT_NEAR(first[3], 2e-3, 1e-15);
-}
-
-TEST(Transient, ProbesOutsideTheBodyAreRefused) {
-  Model m = plate();
-  std::get<GridSpec>(m.particles).remove = {{BallRegion{{0.6, 0.4}, 0.15}, {}}};
-  for (const Coordinates& at : std::vector<Coordinates>{{1.3, 0.4}, {-0.01, 0.4}, {0.6, 0.4}}) {
-    TransientOptions options = until(0.1);
-    options.probes = {{"p", TransientProbe::Kind::displacement, at, {}, {}}};
-    EXPECT_THAT([&] { (void)record<2>(m, options); },
-                ThrowsMessage<Error>(HasSubstr("a point of the body for the probe 'p'")));
-  }
-  TransientOptions options = until(0.1);
-  options.probes = {{"s", TransientProbe::Kind::strain, {0.11, 0.1}, {0.12, 0.1}, {}}};
-  EXPECT_THAT([&] { (void)record<2>(m, options); }, ThrowsMessage<Error>(HasSubstr("two particles")));
 }
 
 /// A bump splits in two waves that run out of a bar with free ends. Without sponges all of the energy comes
