@@ -161,6 +161,7 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
 
 std::vector<std::int64_t> field_steps(const TransientOptions& options, const TransientPlan& plan) {
   std::vector<std::int64_t> steps;
+  steps.reserve(options.fields_at.size() + 1);
   for (const double t : options.fields_at)
     steps.push_back(std::clamp<std::int64_t>(std::llround(t / plan.dt), 0, plan.steps));
   if (options.fields_every > 0) {

@@ -3,7 +3,8 @@
 // checked at every step, free faces, one smooth wave. Counters: ns per particle and step, the best of many
 // batches; million particle-steps per second; bonds broken in the run. Name: case/dimension/cells per
 // axis/threads. elastic: nothing breaks; cracking: a wave strong enough to break bonds all over; history:
-// energies at every step; linear: kinematics without turning. One thread: processor time, several: elapsed time.
+// energies at every step; linear: kinematics without turning. One thread: processor time, several: elapsed
+// time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
