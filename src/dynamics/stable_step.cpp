@@ -51,6 +51,10 @@ class Scaled {
   int products_ = 0;
 };
 
+[[noreturn]] void no_number() {
+  throw Error(ErrorKind::solver_failure, "the product with K is no number: a bond without a real stiffness?");
+}
+
 Eigen::VectorXd random_vector(Index n) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
@@ -76,14 +80,11 @@ class Lanczos {
     const double alpha = dot(n, now_.data(), next.data());
     next -= alpha * now_;
     if (!beta_.empty()) next -= beta_.back() * before_;
-    if (!std::isfinite(alpha)) {
-      throw Error(ErrorKind::solver_failure,
-                  "the product with K is no number: a bond without a real stiffness?");
-    }
+    if (!std::isfinite(alpha)) no_number();
     alpha_.push_back(alpha);
     beta_.push_back(std::sqrt(dot(n, next.data(), next.data())));
     largest_ = std::max({largest_, std::abs(alpha), beta_.back()});
-    if (beta_.back() <= 1e-14 * largest_) return false;
+    if (beta_.back() <= 1e-10 * largest_) return false;
     before_.swap(now_);
     now_ = next / beta_.back();
     return true;
@@ -130,10 +131,28 @@ class Lanczos {
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> small_;
 };
 
-/// Largest eigenvalue, raised by its error. Where bonds soften the iteration goes on until the lowest one is
-/// known to be negative or not, or for most_products.
+constexpr Index few = 400;  ///< dofs up to which all eigenvalues are found
+
+Eigen::MatrixXd dense(Scaled& a) {
+  const Index n = a.size();
+  Eigen::MatrixXd whole(n, n);
+  for (Index j = 0; j < n; ++j) whole.col(j) = a(Eigen::VectorXd::Unit(n, j));
+  if (!whole.allFinite()) no_number();
+  return whole;
+}
+
+/// Largest eigenvalue: of few dofs as it is, else raised by its error. Where bonds soften the iteration goes
+/// on until the lowest one is known to be negative or not, or for most_products.
 template <int Dim>
 double symmetric_top(const Body<Dim>& body, Scaled& a) {
+  if (a.size() <= few) {
+    const Eigen::MatrixXd whole = dense(a);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> all(0.5 * (whole + whole.transpose()));
+    const double least = all.eigenvalues()[0], most = all.eigenvalues()[a.size() - 1];
+    if (softening(body) && least < negative * std::max(std::abs(least), std::abs(most)))
+      refuse_instability(body, a.displacement(all.eigenvectors().col(0)), {least, 0.0});
+    return std::max(most, 0.0);
+  }
   Lanczos lanczos(a);
   End lowest, highest;
   const bool look_below = softening(body);
@@ -170,14 +189,11 @@ double growth_of(const Eigen::VectorXcd& lambda, double top) {
 template <int Dim>
 double unsymmetric_top(const Body<Dim>& body, Scaled& a, double& growth) {
   const Index n = a.size();
-  constexpr Index few = 400;
   Eigen::VectorXcd value;
   Eigen::MatrixXcd vector;
   double error = 0.0;
   if (n <= few) {
-    Eigen::MatrixXd whole(n, n);
-    for (Index j = 0; j < n; ++j) whole.col(j) = a(Eigen::VectorXd::Unit(n, j));
-    const Eigen::EigenSolver<Eigen::MatrixXd> all(whole);
+    const Eigen::EigenSolver<Eigen::MatrixXd> all(dense(a));
     value = all.eigenvalues();
     vector = all.eigenvectors();
   } else {

@@ -21,7 +21,8 @@ struct StableStep {
   int products = 0;  ///< with K
 };
 
-/// omega_max by Lanczos on M^-1/2 K M^-1/2 to 1e-4, raised by its error bound [zhou_li2011]; for unsymmetric
+/// omega_max of M^-1/2 K M^-1/2: up to 400 dofs from all eigenvalues, else by Lanczos to 1e-4, raised by its
+/// error bound [zhou_li2011]; for unsymmetric
 /// K from all eigenvalues (up to 400 dofs) or by Arnoldi, raised by ten times the residual; there eigenvalues
 /// complex beyond 1e-8 of the largest make `growth`, those of larger bodies as far as Arnoldi meets them.
 /// Throws invalid_input, a material instability, where an eigenvalue is below -1e-10 of the largest (on a
