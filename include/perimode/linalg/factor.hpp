@@ -36,6 +36,16 @@ struct FillEstimate {
 
 enum class FactorStatus { done, not_positive_definite };
 
+/// What an update of a factor came to.
+struct UpdateResult {
+  FactorStatus status = FactorStatus::done;
+  /// not_positive_definite: the dof whose pivot vanished, in the order of the matrix. The leading minors
+  /// before it (in the order of elimination) are positive definite. The factor is spent until the next
+  /// factorize.
+  Index dof = -1;
+  Offset touched = 0;  ///< numbers of L rewritten, once per column of rank: what the update cost
+};
+
 /// P (K - sigma diag(mass)) P^T = L L^T, supernodal (CHOLMOD). One analysis serves any number of
 /// factorisations of matrices with the same pattern. Moves, does not copy.
 class CholeskyFactor {
@@ -57,6 +67,21 @@ class CholeskyFactor {
 
   /// x = (K - sigma M)^-1 b for all columns at once. Not for two threads at a time.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+
+  /// The factor of A + sum_a a a^T - sum_r r r^T from that of A, in place on the supernodes: only those on
+  /// the paths from the columns' rows to the root of the elimination tree are touched, several columns at a
+  /// time; additions come first. Every product c c^T has to lie within the analysed pattern. A pivot that
+  /// falls below 1e-11 of the diagonal of the matrix last factored counts as vanished. [davis_hager2001],
+  /// [gill1974]. Throws invalid_input for columns of another length or outside the pattern.
+  /// Cost: 2 operations per number of L on the paths and column. @pre the last factorize was `done`.
+  [[nodiscard]] UpdateResult update(const SparseColumns& added, const SparseColumns& removed);
+
+  /// x = A^-1 b for one b that is zero but in `rows` (any order, repetitions allowed): the forward
+  /// substitution keeps to the paths from these rows.
+  [[nodiscard]] Eigen::VectorXd solve_sparse(std::span<const Index> rows, const Eigen::VectorXd& b) const;
+
+  /// The dof at which the last factorize that was not `done` met its first pivot that is not positive, or -1.
+  [[nodiscard]] Index failed_dof() const;
 
   [[nodiscard]] const FillEstimate& fill() const;
   [[nodiscard]] const std::vector<Index>& order() const;

@@ -32,6 +32,16 @@ struct Csr {
   [[nodiscard]] Offset nonzeros() const { return row_start.empty() ? 0 : row_start.back(); }
 };
 
+/// Sparse vectors c_1 .. c_k of one length, rows ascending within each: a matrix changes by sums of c c^T.
+struct SparseColumns {
+  Index rows = 0;
+  std::vector<Offset> start = {0};  ///< columns + 1
+  std::vector<Index> row;
+  std::vector<double> value;
+
+  [[nodiscard]] Index count() const { return static_cast<Index>(start.size()) - 1; }
+};
+
 /// The scalar matrix left when rows and columns of eliminated dofs are struck out. Dof
 /// block*i + a becomes number dof_number[block*i + a]; -1 strikes it out; numbers ascend.
 /// Entries that are exactly zero outside the diagonal are dropped. Cost O(nonzeros).

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "perimode/assembly/body.hpp"
+#include "perimode/assembly/operators.hpp"
+#include "perimode/bonds/bonds.hpp"
+#include "perimode/linalg/operator.hpp"
+#include "perimode/linalg/row_product.hpp"
+#include "perimode/linalg/sparse.hpp"
+
+namespace perimode {
+
+/// A bond by one of its ends.
+struct BondRef {
+  Index particle = 0;
+  Offset slot = 0;
+  bool operator==(const BondRef&) const = default;
+};
+
+/// Bonds as they break: each once, by its lower end. Where walls mirror the body, a bond to a ghost has an
+/// image, the bond of the ghost's particle to the ghost of this one, that is the same bond of the whole body:
+/// both are listed, the two next to each other. Sorted by particle and slot of the first of each. Bonds that
+/// are not alive are left out. Cost O(bonds log bonds).
+template <int Dim>
+[[nodiscard]] std::vector<BondRef> with_images(const Body<Dim>& body, std::vector<BondRef> bonds);
+
+/// The low-rank term of bonds in R K T over the free dofs, sum_b c_b c_b^T, c_b = sqrt(k_b) [n; -n]: what K
+/// loses when they break. A bond and its image (with_images) make one column, n of the one end and the
+/// ghost's own of the other; bonds between dofs that are not free make none. Symmetric boundaries only.
+/// `bonds` as with_images returns them. Cost O(bonds). Throws invalid_input where k_b < 0.
+template <int Dim>
+[[nodiscard]] SparseColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds);
+
+/// K of a body whose bonds break, in one of its forms, which follows in place: the stencil by alive bits and
+/// the runs of the particles concerned, the bond form by zeros, blocks by summing the rows concerned anew.
+/// Equal to the operator made of the body anew, to the last bit (the stencil: to round-off, where particles
+/// change their class). `body` has to outlive it.
+template <int Dim>
+class BreakableStiffness {
+ public:
+  BreakableStiffness(Body<Dim>& body, StiffnessForm form = StiffnessForm::automatic);
+  ~BreakableStiffness();
+  BreakableStiffness(BreakableStiffness&&) noexcept;
+  BreakableStiffness& operator=(BreakableStiffness&&) noexcept;
+  BreakableStiffness(const BreakableStiffness&) = delete;
+  BreakableStiffness& operator=(const BreakableStiffness&) = delete;
+
+  /// R K T as it is at every product; valid while this object lives (it may move).
+  [[nodiscard]] LinearOperator product() const;
+  [[nodiscard]] RowProduct rows() const;
+
+  /// Clears the bonds in the body, at both ends, and takes them out of the form. Cost O(family) per bond.
+  void break_bonds(std::span<const BondRef> bonds);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace perimode

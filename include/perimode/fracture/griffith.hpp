@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "perimode/assembly/body.hpp"
+#include "perimode/assembly/breakable_stiffness.hpp"
+#include "perimode/geometry/crack.hpp"
+
+namespace perimode {
+
+/// The load at which a crack grows by Griffith's criterion, from two compliances: with the energies U of a
+/// unit load factor before and after the crack is longer by one increment,
+///   G = (U_after - U_before) / area under loads (the other sign under given motion alone),
+///   load_factor = sqrt(G0 / G).
+/// Converges to linear elastic fracture mechanics as the horizon shrinks (docs/theory/14_quasistatic.md).
+struct GriffithLoad {
+  double load_factor = 0.0;
+  double energy_release_rate = 0.0;  ///< G at load factor 1, J/m2
+  double fracture_energy = 0.0;      ///< G0, J/m2
+  double increment = 0.0;            ///< area of the increment, m2
+  Offset cut = 0;                    ///< bonds it cuts
+};
+
+/// The first pre-crack made longer, straight on at its `to` end (3D: its far edge), by `spacings` spacings of
+/// the grid (clouds: mean spacing (V/section)^(1/Dim)): what it adds, as a crack joined to it. Throws
+/// invalid_input without a pre-crack.
+template <int Dim>
+[[nodiscard]] Crack<Dim> crack_increment(const Model& model, const Body<Dim>& body, double spacings = 1.0);
+
+/// Bonds alive that cross a crack, images included (with_images). Cost O(bonds).
+template <int Dim>
+[[nodiscard]] std::vector<BondRef> crossing_bonds(const Body<Dim>& body, const Crack<Dim>& crack);
+
+/// Fracture energy of the material of the body's first breakable block, J/m2: its own, or that of its
+/// critical stretch (material/critical_stretch.hpp). Throws invalid_input where it has neither.
+template <int Dim>
+[[nodiscard]] double fracture_energy_of(const Model& model, const Body<Dim>& body);
+
+}  // namespace perimode
