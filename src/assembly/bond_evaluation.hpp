@@ -30,8 +30,8 @@ template <int Dim>
 
 /// What an evaluation is asked for.
 struct BondRequest {
-  const std::function<void(const RowPiece&)>* take = nullptr;  ///< the internal force; null: not asked
-  double* moving_force = nullptr;                              ///< on GivenMotion::moving, with `take`
+  const std::function<void(const RowPiece&)>* take = nullptr;  ///< the internal force
+  double* moving_force = nullptr;                              ///< on GivenMotion::moving
   bool energy = false;
 };
 

@@ -116,21 +116,6 @@ struct BondForces<Dim>::Implementation {
     for (const OverStretched& bond : evaluation->forces(given, q, request)) break_one(bond);
   }
 
-  /// Bonds beyond their limit that no evaluation has broken yet count, end by end.
-  [[nodiscard]] double strain_energy(const double* q) const {
-    double beyond = 0.0;
-    for (const OverStretched& bond : evaluation->forces(given, q, {nullptr, nullptr, true})) {
-      std::visit(
-          [&](const auto& bonds) {
-            const BondEnd<Dim> end = end_at(bonds, bond.particle, bond.slot);
-            const double share = end.neighbour < body->count() ? 0.5 : 1.0;
-            beyond += share * energy_of(bond.particle, end, evaluation->relative(bond.particle, end));
-          },
-          body->bonds);
-    }
-    return evaluation->energy() + beyond;
-  }
-
   void break_one(const OverStretched& bond) {
     std::visit(
         [&](const auto& bonds) {
@@ -233,11 +218,6 @@ double BondForces<Dim>::broken_energy() const {
 template <int Dim>
 double BondForces<Dim>::last_broken_energy(const double* q) const {
   return implementation_->last_energy(q);
-}
-
-template <int Dim>
-double BondForces<Dim>::strain_energy(const double* q) const {
-  return implementation_->strain_energy(q);
 }
 
 template <int Dim>

@@ -118,7 +118,7 @@ class PieceByPiece : public BondEvaluation<Dim> {
       for (Index t = 0; t < piece.count; ++t)
         energy_[static_cast<std::size_t>(p)] += work.energy[static_cast<std::size_t>(t)];
     }
-    if (request.take != nullptr) hand_out(given, p, work, request);
+    hand_out(given, p, work, request);
   }
 
   void hand_out(const GivenMotion<Dim>& given, Index p, Work& work, const BondRequest& request) {

@@ -2,10 +2,10 @@
 #include "perimode/assembly/multigrid.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "linalg/v_cycle.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -82,7 +82,7 @@ Multigrid multigrid(const Body<Dim>& body, const LinearOperator& stiffness, cons
   if (options.smoothing < 1) {
     invalid_input({"a smoother of degree >= 1", std::to_string(options.smoothing), "give 2", {}});
   }
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   Multigrid out;
   const auto hierarchy = std::make_shared<Hierarchy<Dim>>();
   VCycle cycle;
@@ -120,7 +120,7 @@ Multigrid multigrid(const Body<Dim>& body, const LinearOperator& stiffness, cons
   hierarchy->cycle = v_cycle(std::move(cycle));
   out.preconditioner = {stiffness.size,
                         [hierarchy](const double* b, double* x) { hierarchy->cycle.apply(b, x); }};
-  out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.seconds = seconds_since(begin);
   return out;
 }
 

@@ -44,8 +44,9 @@ std::string modal_plan_text(const ModalPlan& plan) {
   fmt::format_to(to, "\nbonds            {}", plan.bonds);
   if (plan.cut > 0) fmt::format_to(to, "  ({} cut by pre-cracks)", plan.cut);
   fmt::format_to(to, "\ndofs             {}\n", plan.dofs);
-  const std::string symmetry =
-      plan.asymmetry <= 1e-12 ? "symmetric" : fmt::format("not symmetric, {:.1e}", plan.asymmetry);
+  const std::string symmetry = plan.asymmetry <= symmetric_to_round_off
+                                   ? "symmetric"
+                                   : fmt::format("not symmetric, {:.1e}", plan.asymmetry);
   fmt::format_to(to, "stiffness        {}\n",
                  plan.nonzeros > 0 ? fmt::format("{} nonzeros, {}", plan.nonzeros, symmetry)
                                    : symmetry + ", not assembled");

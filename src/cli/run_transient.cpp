@@ -7,7 +7,6 @@
 #include "interrupt.hpp"
 #include "machine.hpp"
 #include "perimode/assembly/critical_stretches.hpp"
-#include "perimode/assembly/operators.hpp"
 #include "perimode/io/case.hpp"
 #include "perimode/io/checkpoint.hpp"
 #include "perimode/io/initial_state.hpp"
@@ -19,8 +18,6 @@ namespace perimode::cli {
 
 namespace {
 
-constexpr double symmetric_to_round_off = 1e-12;
-
 std::string resume_command(const Arguments& arguments) {
   return arguments.command_line + (arguments.resume ? "" : " --resume");
 }
@@ -31,10 +28,10 @@ class Recorder {
  public:
   Recorder(const Case& input, const Body<Dim>& body, ResultDirectory& folder, std::string digest,
            const std::optional<Checkpoint>& from)
-      : folder_(&folder),
-        history_(folder.temporary() / "history.csv", from ? from->history_bytes : 0,
-                 probe_columns(input.transient->probes, Dim),
-                 asymmetry(stiffness_operator(body, input.transient->form)) > symmetric_to_round_off),
+      : input_(&input),
+        body_(&body),
+        folder_(&folder),
+        history_bytes_(from ? from->history_bytes : 0),
         frames_(folder.temporary() / "fields.exo", input.title, input.output.fields, from ? from->frames : 0),
         digest_(std::move(digest)) {
     if (from) {
@@ -43,11 +40,18 @@ class Recorder {
     }
   }
 
-  [[nodiscard]] TransientObserver<Dim> observer(const std::string& interrupted_twice) {
+  [[nodiscard]] TransientObserver<Dim> observer(const std::string& interrupted_twice, Console& console) {
     TransientObserver<Dim> observer;
+    observer.begin = [this, &console](const TransientPlan& plan) {
+      history_.emplace(folder_->temporary() / "history.csv", history_bytes_,
+                       probe_columns(input_->transient->probes, Dim), !plan.symmetric);
+      console.clear_progress();
+      fmt::print("{}", transient_start_text(*body_, plan));
+      std::fflush(stdout);
+    };
     observer.history = [this](const HistoryRow& row) {
       const auto start = Clock::now();
-      history_.add(row);
+      history_->add(row);
       last_energies_ = row.energies;
       seconds_ += seconds_since(start);
     };
@@ -64,14 +68,14 @@ class Recorder {
     observer.stop = [this, interrupted_twice, first = true]() mutable {
       if (first) interrupts_only_ask(interrupted_twice);
       first = false;
-      history_.show_now_and_then();
+      history_->show_now_and_then();
       return interrupt_requested();
     };
     return observer;
   }
 
   void close() {
-    history_.close();
+    history_->close();
     frames_.close();
   }
 
@@ -83,16 +87,19 @@ class Recorder {
  private:
   /// A checkpoint counts on what it says of the other files, so they reach the disk before it does.
   void save(const IntegratorState& state) {
-    history_.sync();
+    history_->sync();
     frames_.sync();
     write_checkpoint(folder_->temporary(),
-                     {digest_, state, history_.bytes(), frames_.frames(), last_energies_});
+                     {digest_, state, history_->bytes(), frames_.frames(), last_energies_});
     folder_->keep();
     last_checkpoint_ = state.step;
   }
 
+  const Case* input_;
+  const Body<Dim>* body_;
   ResultDirectory* folder_;
-  HistoryFile history_;
+  std::int64_t history_bytes_;          ///< of the part of the run before a resumption
+  std::optional<HistoryFile> history_;  ///< from the beginning of the run on
   FramesFile<Dim> frames_;
   std::string digest_;
   Energies last_energies_;
@@ -125,10 +132,10 @@ nlohmann::ordered_json transient_summary(const Case& input, const Body<Dim>& bod
                             {"omega_max", plan.stable.omega_max},
                             {"bound", plan.stable.bound},
                             {"growth", plan.stable.growth}};
-  summary["symmetric"] = result.symmetric;
+  summary["symmetric"] = plan.symmetric;
   summary["energies"] = energies_json(result.energies);
   summary["balance"] = relative_balance(result.energies);
-  if (!result.symmetric) summary["boundary_work"] = result.boundary_work;
+  if (!plan.symmetric) summary["boundary_work"] = result.boundary_work;
   summary["broken_bonds"] = result.broken_bonds;
   if (input.transient->method == TimeMethod::modal) {
     summary["truncation"] = {{"initial_energy", result.truncation.initial_energy},
@@ -160,10 +167,10 @@ TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientOpt
 
 /// Round-off for linear, symmetric bodies, of the order of the step squared where bonds turn or break.
 void warn_of_imbalance(const TransientResult& result, Console& console) {
-  const bool exact = result.plan.form != "bond forces";
+  const bool exact = result.plan.conserves;
   const double tolerated = exact ? 1e-6 : 0.1;
   const double share = relative_balance(result.energies);
-  if (result.status != TransientStatus::done || !result.symmetric || share <= tolerated) return;
+  if (result.status != TransientStatus::done || !result.plan.symmetric || share <= tolerated) return;
   console.warning(fmt::format("the energies do not balance by {:.1e} of what went through: {}", share,
                               exact ? "rounding has outgrown the motion" : "take a smaller dt"));
 }
@@ -216,7 +223,8 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
     result = run_steps(
         body, input, options,
         recorder.observer(fmt::format("interrupted at once; if there is a checkpoint, go on with: {}",
-                                      resume_command(arguments))),
+                                      resume_command(arguments)),
+                          console),
         from, sink);
     if (result.status == TransientStatus::interrupted) {
       console.clear_progress();
@@ -244,7 +252,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   remove_checkpoints(folder.target());
   console.clear_progress();
 
-  fmt::print("{}results in {}\n", transient_text(body, result), folder.target().string());
+  fmt::print("{}results in {}\n", transient_text(result), folder.target().string());
   std::fflush(stdout);
   warn_of_imbalance(result, console);
   if (result.status == TransientStatus::done) return 0;

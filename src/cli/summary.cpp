@@ -14,10 +14,6 @@
 
 namespace perimode::cli {
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
 void add_run(nlohmann::ordered_json& summary, nlohmann::ordered_json timings) {
   summary["timings_s"] = std::move(timings);
   summary["peak_memory_mb"] = peak_memory() / 1e6;

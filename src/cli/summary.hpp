@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "core/stopwatch.hpp"
 #include "perimode/assembly/body.hpp"
 #include "perimode/io/result_directory.hpp"
 #include "perimode/io/table.hpp"
 
 namespace perimode::cli {
-
-using Clock = std::chrono::steady_clock;
-
-[[nodiscard]] double seconds_since(Clock::time_point start);
 
 /// What every summary.json begins with.
 template <int Dim>

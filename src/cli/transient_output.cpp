@@ -100,19 +100,17 @@ std::string step_text(const TransientPlan& plan) {
   return fmt::to_string(out);
 }
 
-template <int Dim>
-std::string size_text(const Body<Dim>& body) {
-  return fmt::format("{} particles, {} bonds, {} dofs\n", body.count(), count_bonds(body.bonds, body.count()),
-                     body.boundary.free);
-}
-
 }  // namespace
 
 template <int Dim>
-std::string transient_text(const Body<Dim>& body, const TransientResult& result) {
+std::string transient_start_text(const Body<Dim>& body, const TransientPlan& plan) {
+  return fmt::format("{} particles, {} bonds, {} dofs\n{}", body.count(),
+                     count_bonds(body.bonds, body.count()), body.boundary.free, step_text(plan));
+}
+
+std::string transient_text(const TransientResult& result) {
   fmt::memory_buffer out;
   auto to = std::back_inserter(out);
-  fmt::format_to(to, "{}{}", size_text(body), step_text(result.plan));
   if (result.plan.method == "modal") {
     fmt::format_to(to, "left out         {:.1e} of the initial energy, {:.1e} of the loads\n",
                    result.truncation.initial_energy, result.truncation.load);
@@ -126,22 +124,23 @@ std::string transient_text(const Body<Dim>& body, const TransientResult& result)
   fmt::format_to(to, "  strain         {:14.6e}\n", e.strain);
   if (e.damping != 0.0) fmt::format_to(to, "  damping        {:14.6e}\n", e.damping);
   if (e.broken != 0.0) fmt::format_to(to, "  broken bonds   {:14.6e}\n", e.broken);
-  if (!result.symmetric) fmt::format_to(to, "  boundary work  {:14.6e}\n", result.boundary_work);
+  if (!result.plan.symmetric) fmt::format_to(to, "  boundary work  {:14.6e}\n", result.boundary_work);
   fmt::format_to(to, "balance          {:.1e} of the energy that went through{}\n", relative_balance(e),
-                 result.symmetric ? "" : " (unsymmetric boundary)");
+                 result.plan.symmetric ? "" : " (unsymmetric boundary)");
   if (result.broken_bonds > 0) fmt::format_to(to, "broken bonds     {}\n", result.broken_bonds);
   return fmt::to_string(out);
 }
 
 template <int Dim>
 std::string transient_plan_text(const Body<Dim>& body, const TransientPlan& plan) {
-  return fmt::format("transient\n{}{}memory           about {} ({} available)\n", size_text(body),
-                     step_text(plan), bytes_text(plan.memory_bytes), bytes_text(available_memory()));
+  return fmt::format("transient\n{}memory           about {} ({} available)\n",
+                     transient_start_text(body, plan), bytes_text(plan.memory_bytes),
+                     bytes_text(available_memory()));
 }
 
-#define PERIMODE_TRANSIENT_OUTPUT(D)                                              \
-  template class FramesFile<D>;                                                   \
-  template std::string transient_text<D>(const Body<D>&, const TransientResult&); \
+#define PERIMODE_TRANSIENT_OUTPUT(D)                                                  \
+  template class FramesFile<D>;                                                       \
+  template std::string transient_start_text<D>(const Body<D>&, const TransientPlan&); \
   template std::string transient_plan_text<D>(const Body<D>&, const TransientPlan&)
 PERIMODE_TRANSIENT_OUTPUT(1);
 PERIMODE_TRANSIENT_OUTPUT(2);

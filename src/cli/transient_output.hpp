@@ -59,9 +59,10 @@ class FramesFile {
 /// and has lost. 0 for a body nothing happens to.
 [[nodiscard]] double relative_balance(const Energies& energies);
 
-/// The report a person reads.
+/// The report a person reads: before the first step, and at the end.
 template <int Dim>
-[[nodiscard]] std::string transient_text(const Body<Dim>& body, const TransientResult& result);
+[[nodiscard]] std::string transient_start_text(const Body<Dim>& body, const TransientPlan& plan);
+[[nodiscard]] std::string transient_text(const TransientResult& result);
 
 /// What `perimode check` says of a transient analysis.
 template <int Dim>

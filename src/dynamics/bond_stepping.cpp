@@ -94,8 +94,8 @@ class BondStepping final : public Integrator {
     perimode::save("damped", damped_, state);
     state.numbers["reaction"] = reaction_;
     state.numbers["energies"] = {e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.initial};
-    state.numbers["sums"] = {work_.sum,   work_.lost,   damping_.sum, damping_.lost,
-                             broken_.sum, broken_.lost, power_,       bonds.energy};
+    state.numbers["sums"] = {work_.sum, work_.lost,   damping_.sum, damping_.lost, broken_.sum, broken_.lost,
+                             power_,    bonds.energy, dt_};
     state.bits["alive"] = std::move(bonds.alive);
     state.bits["broken"] = {static_cast<std::uint64_t>(bonds.broken)};
     return state;
@@ -108,7 +108,8 @@ class BondStepping final : public Integrator {
       invalid_input({"a checkpoint of bonds that break", "another", "resume with the case that made it", {}});
     }
     const auto& e = saved_numbers(state, "energies", 6);
-    const auto& sums = saved_numbers(state, "sums", 8);
+    const auto& sums = saved_numbers(state, "sums", 9);
+    check_saved_step(sums[8], dt_);
     std::vector<double> reaction = saved_numbers(state, "reaction", forces_->moving_force().size());
     Eigen::VectorXd q = saved(state, "displacement", n_);
     Eigen::VectorXd v = saved(state, "velocity", n_);

@@ -65,9 +65,9 @@ class Forces {
 };
 
 /// Given displacements sum_k h_k g_k: what they store and the work they do, from p_k = -R K g_k alone.
-class GivenMotion {
+class GivenWork {
  public:
-  explicit GivenMotion(const Motion& motion) : stiffness_(&motion.motion_stiffness) {
+  explicit GivenWork(const Motion& motion) : stiffness_(&motion.motion_stiffness) {
     for (const ForceTerm& term : motion.force)
       if (term.motion) terms_.push_back(&term);
   }
@@ -299,7 +299,7 @@ class CentralDifference final : public Integrator {
   std::vector<PieceRows> rows_;
   std::vector<PieceSums> sums_;
   Forces forces_;
-  GivenMotion given_;
+  GivenWork given_;
   Eigen::VectorXd along_;  ///< p_k . q_n
   double kinetic_ = 0.0, strain_ = 0.0, initial_ = 0.0;
   CompensatedSum work_, damping_;

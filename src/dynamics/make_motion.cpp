@@ -170,8 +170,7 @@ Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
   Motion motion;
   motion.mass = lumped_mass(body);
   motion.stiffness = stiffness_rows(body, stored_form(body, options));
-  constexpr double round_off = 1e-12;
-  motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= round_off;
+  motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= symmetric_to_round_off;
   const std::vector<double> rate = damping_rates(body, options);
   if (!rate.empty()) {
     motion.damping_rate.resize(body.boundary.free);

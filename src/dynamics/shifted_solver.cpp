@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "linalg/fused.hpp"
@@ -40,10 +41,23 @@ double bytes_per_iteration(const Body<Dim>& body) {
   return 8.0 * 16.0 + operator_bytes(body) / dofs + 0.5 * Dim * family;
 }
 
+struct Counted {
+  FillEstimate fill;
+  double matrix_bytes = 0.0;
+};
 struct Choice {
   ImplicitSolver solver = ImplicitSolver::factor;
   std::string reason;
+  std::optional<Counted> counted = {};  ///< where the choice asked for it
 };
+
+template <int Dim>
+Counted count_fill(const Body<Dim>& body) {
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  return {
+      predict_fill_with_order(k, dissection_order(k, particle_of_free_dof(body), particle_positions(body))),
+      12.0 * static_cast<double>(k.nonzeros())};
+}
 
 /// Above so many dofs not even the ordering is tried, by dimension.
 constexpr double most_dofs_to_order[] = {1e12, 4e6, 4e5};
@@ -61,14 +75,13 @@ Choice automatic(const Body<Dim>& body, double ratio, double tolerance) {
       fmt::format("about {:.0f} iterations move {:.1f} kB per dof and step", iterations, 1e-3 * moved);
   if (dofs > most_dofs_to_order[Dim - 1])
     return {ImplicitSolver::cg, fmt::format("{}; {:.0f} dofs are too many for a factor", cg, dofs)};
-  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
-  const FillEstimate fill =
-      predict_fill_with_order(k, dissection_order(k, particle_of_free_dof(body), particle_positions(body)));
+  Counted counted = count_fill(body);
+  const FillEstimate& fill = counted.fill;
   const double factor = (2.0 * fill.factor_bytes + fill.flops / steps_of_a_run) / dofs;
-  const std::string counted =
+  const std::string reason =
       fmt::format("{}, a factor of {:.2f} GB {:.1f} kB", cg, 1e-9 * fill.peak_bytes, 1e-3 * factor);
   const bool fits = fill.peak_bytes <= most_factor_bytes;
-  return {fits && factor <= moved ? ImplicitSolver::factor : ImplicitSolver::cg, counted};
+  return {fits && factor <= moved ? ImplicitSolver::factor : ImplicitSolver::cg, reason, counted};
 }
 
 template <int Dim>
@@ -177,15 +190,22 @@ ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& s
 }
 
 template <int Dim>
-std::string describe_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which, double ratio,
-                                    double tolerance) {
-  return name(choose(body, symmetric, which, ratio, tolerance), symmetric);
+ShiftedPlan plan_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which, double ratio,
+                                double tolerance) {
+  const Choice choice = choose(body, symmetric, which, ratio, tolerance);
+  ShiftedPlan plan{name(choice, symmetric), 0.0};
+  if (choice.solver == ImplicitSolver::cg) return plan;
+  const Counted counted = choice.counted ? *choice.counted : count_fill(body);
+  // UMFPACK keeps L, U and working copies; its column order fills more than a symmetric one.
+  plan.factor_bytes =
+      counted.matrix_bytes + (symmetric ? counted.fill.peak_bytes : 6.3 * counted.fill.factor_bytes);
+  return plan;
 }
 
 #define PERIMODE_SHIFTED(D)                                                                                  \
   template ShiftedSolver make_shifted_solver<D>(const Body<D>&, const LinearOperator&, bool, ImplicitSolver, \
                                                 double, double, std::string&);                               \
-  template std::string describe_shifted_solver<D>(const Body<D>&, bool, ImplicitSolver, double, double)
+  template ShiftedPlan plan_shifted_solver<D>(const Body<D>&, bool, ImplicitSolver, double, double)
 PERIMODE_SHIFTED(1);
 PERIMODE_SHIFTED(2);
 PERIMODE_SHIFTED(3);

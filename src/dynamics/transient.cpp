@@ -10,6 +10,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "dynamics/probes.hpp"
 #include "dynamics/transient_plan.hpp"
 #include "perimode/dynamics/central_difference.hpp"
@@ -18,12 +19,6 @@
 namespace perimode {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 template <int Dim>
 Eigen::VectorXd free_part(const BoundaryMap<Dim>& boundary, const Eigen::VectorXd& all) {
@@ -315,7 +310,6 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   sink.report("loads and forces");
   Run<Dim> run;
   run.motion = make_motion(body, options);
-  result.symmetric = run.motion.symmetric;
   sink.report("stable step");
   result.plan = plan_steps(body, options, run.motion);
   for (const std::string& warning : result.plan.warnings) sink.warn(warning);
@@ -345,6 +339,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   }
   result.seconds_setup = seconds_since(start);
 
+  if (observer.begin) observer.begin(result.plan);
   const auto stepping = Clock::now();
   Progress progress(sink, result.plan.steps);
   bool sound = resume != nullptr || stepper.report();
@@ -362,13 +357,13 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
     result.status = TransientStatus::unstable;
     result.message = fmt::format(
         "displacements grew beyond all measure by step {}{}", result.step,
-        result.symmetric ? "" : ": an unsymmetric boundary can feed waves; use other walls or damping");
+        result.plan.symmetric ? "" : ": an unsymmetric boundary can feed waves; use other walls or damping");
   }
   result.seconds_steps = seconds_since(stepping);
   result.iterations = *run.iterations;
   result.displacement = stepper.displacement();
   result.velocity = stepper.velocity();
-  if (!result.symmetric) result.boundary_work = result.energies.balance();
+  if (!result.plan.symmetric) result.boundary_work = result.energies.balance();
   return result;
 }
 

@@ -6,11 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dynamics/probes.hpp"
-#include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
-#include "perimode/linalg/factor.hpp"
 #include "perimode/modal/plan.hpp"
 
 namespace perimode {
@@ -133,6 +132,8 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
   TransientPlan plan;
   plan.method = method_name(options.method);
   plan.form = form_name(body, options);
+  plan.symmetric = motion.symmetric;
+  plan.conserves = !needs_bond_forces(options);
   const bool explicit_method = options.method == TimeMethod::central_difference;
   const bool implicit_method = options.method == TimeMethod::newmark || options.method == TimeMethod::hht;
   if (explicit_method || implicit_method || options.dt == 0.0) {
@@ -178,7 +179,7 @@ namespace {
 
 /// Peak of a run, bytes.
 template <int Dim>
-double predicted_memory(const Body<Dim>& body, const TransientOptions& options, const TransientPlan& plan) {
+double predicted_memory(const Body<Dim>& body, const TransientOptions& options, double factor_bytes) {
   constexpr double program_bytes = 36e6;  // code, libraries and their work space
   const double dofs = body.boundary.free;
   const double all_dofs = static_cast<double>(body.count()) * Dim;
@@ -194,15 +195,7 @@ double predicted_memory(const Body<Dim>& body, const TransientOptions& options, 
   double vectors = explicit_method ? 5.0 : 14.0;
   if (needs_bond_forces(options))
     vectors += 2.0 + 4.0 / Dim;  // over the padded grid; properties of particles
-  const double bytes = common + sizeof(double) * (vectors * dofs + 6.0 * all_dofs);
-  const bool cholesky = plan.solver.starts_with("cholesky");
-  if (!cholesky && !plan.solver.starts_with("lu")) return bytes;
-  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
-  const FillEstimate fill =
-      predict_fill_with_order(k, dissection_order(k, particle_of_free_dof(body), particle_positions(body)));
-  // UMFPACK keeps L, U and working copies; its column order fills more than a symmetric one.
-  return bytes + 12.0 * static_cast<double>(k.nonzeros()) +
-         (cholesky ? fill.peak_bytes : 6.3 * fill.factor_bytes);
+  return common + sizeof(double) * (vectors * dofs + 6.0 * all_dofs) + factor_bytes;
 }
 
 }  // namespace
@@ -213,11 +206,14 @@ TransientPlan plan_transient(const Body<Dim>& body, const TransientOptions& opti
   (void)place_probes(body, options.probes);
   const Motion motion = make_motion(body, options);
   TransientPlan plan = plan_steps(body, options, motion);
+  double factor_bytes = 0.0;
   if (options.method == TimeMethod::newmark || options.method == TimeMethod::hht) {
-    plan.solver = describe_shifted_solver(body, motion.symmetric, options.solver, plan.dt / plan.stable.limit,
-                                          options.tolerance);
+    ShiftedPlan solver = plan_shifted_solver(body, motion.symmetric, options.solver,
+                                             plan.dt / plan.stable.limit, options.tolerance);
+    plan.solver = std::move(solver.description);
+    factor_bytes = solver.factor_bytes;
   }
-  plan.memory_bytes = predicted_memory(body, options, plan);
+  plan.memory_bytes = predicted_memory(body, options, factor_bytes);
   return plan;
 }
 

@@ -2,16 +2,12 @@
 #include "certificate.hpp"
 
 #include <algorithm>
-#include <chrono>
 
+#include "core/stopwatch.hpp"
 #include "perimode/linalg/factor.hpp"
 
 namespace perimode {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point begin) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
 
 /// Does a probe find nothing? It may need more than one attempt to decide.
 bool clean(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood& held, double cut, int block,
@@ -32,7 +28,7 @@ Offset count_below(const EigenProblem& problem, double sigma, std::span<const In
 
 Certificate certify_by_inertia(const EigenProblem& problem, double at, Offset expected,
                                std::span<const Index> order) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   Certificate out{.method = "inertia", .count = count_below(problem, at, order), .at = at};
   out.complete = out.count == expected;
   out.seconds = seconds_since(begin);
@@ -41,7 +37,7 @@ Certificate certify_by_inertia(const EigenProblem& problem, double at, Offset ex
 
 Certificate certify_by_restart(SpectralTransform& op, const Eigen::MatrixXd& deflated, Neighbourhood held,
                                double cut, int block, int rounds, std::uint64_t seed) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   const Offset applied = op.applied;
   Certificate out{.complete = true, .method = "restart", .at = op.eigenvalue(cut)};
   for (int round = 0; round < rounds && out.complete; ++round)

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "core/stopwatch.hpp"
 #include "fused.hpp"
 #include "perimode/core/error.hpp"
 
@@ -140,9 +140,9 @@ CgResult conjugate_gradients(const LinearOperator& a, const Eigen::VectorXd& b,
                              const LinearOperator& preconditioner, const CgOptions& options,
                              const Eigen::VectorXd* start, const Sink& sink) {
   check(a, b, preconditioner, options, start);
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   CgResult result = Iteration(a, b, preconditioner, options, sink).run(start);
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds = seconds_since(begin);
   return result;
 }
 

@@ -2,11 +2,11 @@
 #include "dense.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
+#include "core/stopwatch.hpp"
 #include "dense_kernels.hpp"
 
 namespace perimode {
@@ -38,7 +38,7 @@ std::vector<Eigen::Index> choose(const Eigen::VectorXd& value, const EigenOption
 }  // namespace
 
 EigenResult solve_dense(const EigenProblem& problem, const EigenOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   const Csr& k = *problem.stiffness;
   const Eigen::VectorXd root = problem.mass->cwiseSqrt();
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(k.rows, k.rows);
@@ -66,7 +66,7 @@ EigenResult solve_dense(const EigenProblem& problem, const EigenOptions& options
                      .method = "all modes",
                      .count = k.rows,
                      .at = value.size() > 0 ? value[value.size() - 1] : 0.0};
-  out.seconds_iterate = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  out.seconds_iterate = seconds_since(begin);
   return out;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <chrono>
-
+#include "core/stopwatch.hpp"
 #include "perimode/linalg/eigen.hpp"
 #include "search.hpp"
 
@@ -52,12 +51,10 @@ void keep(EigenResult& result, Eigen::Index first, Eigen::Index count);
 
 class Stopwatch {
  public:
-  [[nodiscard]] double seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
+  [[nodiscard]] double seconds() const { return seconds_since(begin_); }
 
  private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  Clock::time_point begin_ = Clock::now();
 };
 
 }  // namespace perimode

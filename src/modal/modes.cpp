@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numbers>
 
+#include "core/stopwatch.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/multigrid.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -16,12 +16,6 @@
 namespace perimode {
 
 namespace {
-
-constexpr double symmetric_to_round_off = 1e-12;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 double to_eigenvalue(double hz) { return std::pow(2.0 * std::numbers::pi * hz, 2); }
 
@@ -334,7 +328,7 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   if (!wanted.modes && !wanted.range) wanted.modes = std::min<Index>(20, dofs);
 
   ModalResult result;
-  const auto start = std::chrono::steady_clock::now();
+  const auto start = Clock::now();
   sink.report("assembling");
   Problem problem;
   problem.mass = lumped_mass(body);

@@ -60,7 +60,7 @@ ModalPlan plan_modes(const Body<Dim>& body, const ModalOptions& options) {
   const Eigen::VectorXd mass = lumped_mass(body);
   const double bound = stiffness_bound(body);
   plan.asymmetry = asymmetry(action);
-  const bool symmetric = plan.asymmetry <= 1e-12;
+  const bool symmetric = plan.asymmetry <= symmetric_to_round_off;
   const SolverChoice choice = choose_solver(modal_size(body, symmetric), bound / mass.minCoeff(), options);
   plan.reason = choice.reason;
   if (symmetric) plan.rigid = static_cast<Index>(rigid_modes(body, action, mass).cols());

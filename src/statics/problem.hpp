@@ -19,7 +19,7 @@ struct StaticProblem {
   Eigen::VectorXd mass;   ///< of the free dofs, kg
   Eigen::MatrixXd rigid;  ///< rigid motions left free, M-orthonormal
 
-  [[nodiscard]] bool symmetric() const { return asymmetry <= 1e-12; }
+  [[nodiscard]] bool symmetric() const { return asymmetry <= symmetric_to_round_off; }
 };
 
 /// Throws invalid_input: loads that do not fit the body, nothing that loads or moves it, loads that are not

@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
+#include "core/stopwatch.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/multigrid.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -18,12 +18,6 @@
 namespace perimode {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 [[noreturn]] void mechanism() {
   invalid_input({"a body whose bonds hold its shape",

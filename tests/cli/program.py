@@ -115,13 +115,13 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(run.returncode, 0, run.stderr)
         return run
 
-    def one_error(self, run, code):
+    def one_error(self, run, code, stdout=r"\A\Z"):
         """The run failed with one line, besides those of stages it went through before; returns it."""
         self.assertEqual(run.returncode, code, run.stderr)
         lines = [line for line in run.stderr.splitlines() if not STAGE.match(line)]
         self.assertEqual(len(lines), 1, run.stderr)
         self.assertTrue(lines[0].startswith("perimode: error: "), run.stderr)
-        self.assertEqual(run.stdout, "")
+        self.assertRegex(run.stdout, stdout)
         return lines[0]
 
     def complaint(self, run, code=2):

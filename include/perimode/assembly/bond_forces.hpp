@@ -53,8 +53,6 @@ class BondForces {
   [[nodiscard]] double broken_energy() const;
   /// Energy that the bonds broken in the last evaluation held at other displacements q (set_time), J.
   [[nodiscard]] double last_broken_energy(const double* q) const;
-  /// Strain energy of the alive bonds at displacements q of the free dofs, J. Cost as an evaluation.
-  [[nodiscard]] double strain_energy(const double* q) const;
   /// Whether evaluations of the product sum the strain energy of the bonds they leave alive on their way, for
   /// a few per cent of their cost; and that of the last one, J.
   void follow_energy(bool wanted);

@@ -25,9 +25,13 @@ template <int Dim>
                                                 bool symmetric, ImplicitSolver which, double ratio,
                                                 double tolerance, std::string& description);
 
-/// What make_shifted_solver would choose, and why.
+/// What make_shifted_solver would choose.
+struct ShiftedPlan {
+  std::string description;    ///< and why
+  double factor_bytes = 0.0;  ///< peak of making a factor, the matrix included; 0: none is made
+};
 template <int Dim>
-[[nodiscard]] std::string describe_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which,
-                                                  double ratio, double tolerance = 1e-12);
+[[nodiscard]] ShiftedPlan plan_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which,
+                                              double ratio, double tolerance);
 
 }  // namespace perimode

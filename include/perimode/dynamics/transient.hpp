@@ -102,10 +102,26 @@ struct TransientFrame {
   const Body<Dim>* body = nullptr;
 };
 
+/// The run before its first step: what `perimode check` prints.
+struct TransientPlan {
+  std::string method;
+  std::string form;    ///< "stencil", "bonds", "blocks", "turning bonds"
+  std::string solver;  ///< of implicit steps, with the reason; empty: none
+  StableStep stable;
+  bool symmetric = true;  ///< R K T
+  bool conserves = true;  ///< energies balance to round-off where K is symmetric: no bond turns or may break
+  double dt = 0.0;
+  std::int64_t steps = 0;
+  double memory_bytes = 0.0;  ///< predicted peak; by plan_transient alone
+  std::vector<std::string> warnings = {};
+};
+
 /// Whom a run tells what happens. Empty functions are not called. At one step: history, then fields, then
 /// checkpoint, then stop.
 template <int Dim>
 struct TransientObserver {
+  /// Before the first report, of a run and of its resumption.
+  std::function<void(const TransientPlan&)> begin;
   std::function<void(const HistoryRow&)> history;
   std::function<void(const TransientFrame<Dim>&)> fields;
   std::function<void(const IntegratorState&)> checkpoint;
@@ -118,18 +134,6 @@ struct TransientObserver {
 struct InitialState {
   Eigen::VectorXd displacement;
   Eigen::VectorXd velocity;
-};
-
-/// The run before its first step: what `perimode check` prints.
-struct TransientPlan {
-  std::string method;
-  std::string form;    ///< "stencil", "bonds", "blocks", "turning bonds"
-  std::string solver;  ///< of implicit steps, with the reason; empty: none
-  StableStep stable;
-  double dt = 0.0;
-  std::int64_t steps = 0;
-  double memory_bytes = 0.0;  ///< predicted peak; by plan_transient alone
-  std::vector<std::string> warnings = {};
 };
 
 enum class TransientStatus { done, interrupted, unstable };
@@ -145,8 +149,7 @@ struct TransientResult {
   Energies energies;            ///< at the last history row
   std::int64_t broken_bonds = 0;
   double boundary_work = 0.0;  ///< of an unsymmetric boundary, J
-  bool symmetric = true;
-  Offset iterations = 0;  ///< of conjugate gradients, all steps
+  Offset iterations = 0;       ///< of conjugate gradients, all steps
   double seconds_setup = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
   Eigen::VectorXd displacement;  ///< of all particle dofs at the end, m
   Eigen::VectorXd velocity;      ///< m/s
@@ -157,7 +160,8 @@ struct TransientResult {
 /// both numbers and the bound), end <= 0, a probe outside the body, an empty load region, a method that does
 /// not fit (modal superposition of an unsymmetric body, large rotations with an implicit method), a material
 /// instability. Displacements that are no numbers end a run as unstable, and so does, with an unsymmetric
-/// boundary, an energy that has grown beyond 10^4 times what was ever put in.
+/// boundary, an energy beyond 10^4 times what was ever put in once StableStep::growth has had the time for
+/// it.
 template <int Dim>
 [[nodiscard]] TransientResult run_transient(Body<Dim>& body, const TransientOptions& options,
                                             const InitialState& initial,

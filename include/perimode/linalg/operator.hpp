@@ -28,4 +28,7 @@ struct LinearOperator {
 /// (below 1e-13) for a symmetric operator, and for no other but by a chance of measure zero. 6 products.
 [[nodiscard]] double asymmetry(const LinearOperator& a, std::uint64_t seed = 1);
 
+/// An asymmetry at or below this counts as round-off.
+constexpr double symmetric_to_round_off = 1e-12;
+
 }  // namespace perimode

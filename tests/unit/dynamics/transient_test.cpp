@@ -168,7 +168,7 @@ TEST(Transient, UnsymmetricBoundariesDoWork) {
   add_walls(m, 0, WallType::odd);
   add_walls(m, 1, WallType::odd);
   const Recorded r = record<2>(m, until(1.0), true);
-  EXPECT_FALSE(r.result.symmetric);
+  EXPECT_FALSE(r.result.plan.symmetric);
   EXPECT_EQ(r.result.boundary_work, r.rows.back().energies.balance());
   EXPECT_GT(std::abs(r.result.boundary_work), 1e-6 * r.rows.back().energies.initial);
   TransientOptions modal = until(1.0);
@@ -177,7 +177,7 @@ TEST(Transient, UnsymmetricBoundariesDoWork) {
   Model mirrored = box_model({12, 8}, 0.1, 3.0);
   add_walls(mirrored, 0, WallType::mirror);
   add_walls(mirrored, 1, WallType::antimirror);
-  EXPECT_TRUE(record<2>(mirrored, until(0.2), true).result.symmetric);
+  EXPECT_TRUE(record<2>(mirrored, until(0.2), true).result.plan.symmetric);
 }
 
 /// Bonds of the third layer that pull where they should push: short waves have a negative eigenvalue.
