@@ -41,9 +41,11 @@ int with_dimension(int dimension, Run&& run) {
 int run_modal(const Arguments& arguments, Console& console);
 int run_static(const Arguments& arguments, Console& console);
 int run_transient(const Arguments& arguments, Console& console);
+int run_quasistatic(const Arguments& arguments, Console& console);
 int run_check(const Arguments& arguments, Console& console);
 int run_new_modal(const Arguments& arguments, Console& console);
 int run_new_static(const Arguments& arguments, Console& console);
 int run_new_transient(const Arguments& arguments, Console& console);
+int run_new_quasistatic(const Arguments& arguments, Console& console);
 
 }  // namespace perimode::cli

@@ -212,6 +212,7 @@ int main(int argc, char** argv) {
   fresh_case("modal", "a template for modes", perimode::cli::run_new_modal);
   fresh_case("static", "a template for statics", perimode::cli::run_new_static);
   fresh_case("transient", "a template for motion in time", perimode::cli::run_new_transient);
+  fresh_case("quasistatic", "a template for crack growth", perimode::cli::run_new_quasistatic);
 
   try {
     app.parse(argc, argv);

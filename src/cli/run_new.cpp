@@ -47,4 +47,8 @@ int run_new_transient(const Arguments& arguments, Console& console) {
   return write_template(transient_template(), "transient", arguments, console);
 }
 
+int run_new_quasistatic(const Arguments& arguments, Console& console) {
+  return write_template(quasistatic_template(), "quasistatic", arguments, console);
+}
+
 }  // namespace perimode::cli

@@ -4,76 +4,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
-#include "fields.hpp"
 #include "machine.hpp"
-#include "perimode/core/version.hpp"
 
 namespace perimode::cli {
 
-HistoryFile::HistoryFile(const std::filesystem::path& file, std::int64_t bytes,
-                         const std::vector<std::string>& probes, bool boundary_work)
-    : file_(bytes > 0 ? OutputFile(file, bytes) : OutputFile(file)), boundary_work_(boundary_work) {
-  if (bytes > 0) return;
-  const auto to = std::back_inserter(file_.buffer());
-  fmt::format_to(to, "step,time,kinetic,strain,external_work,damping,broken,balance");
-  for (const std::string& name : probes) fmt::format_to(to, ",{}", name);
-  fmt::format_to(to, "{}\n", boundary_work_ ? ",boundary_work" : "");
+std::string history_header(const std::vector<std::string>& probes, bool boundary_work) {
+  std::string header = "step,time,kinetic,strain,external_work,damping,broken,balance";
+  for (const std::string& name : probes) header += "," + name;
+  if (boundary_work) header += ",boundary_work";
+  return header;
 }
 
-void HistoryFile::add(const HistoryRow& row) {
-  const auto to = std::back_inserter(file_.buffer());
+void add_history(OutputFile& file, const HistoryRow& row, bool boundary_work) {
+  const auto to = std::back_inserter(file.buffer());
   const Energies& e = row.energies;
   fmt::format_to(to, "{}", row.step);
   for (const double value :
        {row.time, e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.balance()})
     fmt::format_to(to, ",{:.17g}", value);
   for (const double value : row.probes) fmt::format_to(to, ",{:.17g}", value);
-  if (boundary_work_) fmt::format_to(to, ",{:.17g}", e.balance());
-  file_.buffer().push_back('\n');
-  file_.flush_if_full();
-}
-
-void HistoryFile::show_now_and_then() {
-  const double now =
-      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  if (now - shown_ < 1.0) return;
-  shown_ = now;
-  file_.show();
-}
-
-template <int Dim>
-FramesFile<Dim>::FramesFile(std::filesystem::path file, std::string title, std::vector<std::string> fields,
-                            std::int64_t frames)
-    : file_(std::move(file)), title_(std::move(title)), fields_(std::move(fields)), frames_(frames) {
-  if (frames_ > 0) writer_.emplace(file_, static_cast<int>(frames_));
-}
-
-template <int Dim>
-void FramesFile<Dim>::add(const TransientFrame<Dim>& frame) {
-  Fields chosen = chosen_fields<Dim>(*frame.body, frame.displacement, &frame.velocity, fields_);
-  if (!writer_) {
-    ExodusMesh mesh = exodus_mesh(frame.body->particles);
-    mesh.title = title_;
-    mesh.info.push_back("perimode " + version() + ", transient analysis");
-    writer_.emplace(file_, mesh, std::vector<std::string>(), chosen.names);
-  }
-  writer_->write({frame.time, {}, std::move(chosen.values)});
-  ++frames_;
-}
-
-template <int Dim>
-void FramesFile<Dim>::sync() {
-  if (writer_) writer_->sync();
-}
-
-template <int Dim>
-void FramesFile<Dim>::close() {
-  if (writer_) writer_->close();
+  if (boundary_work) fmt::format_to(to, ",{:.17g}", e.balance());
+  file.buffer().push_back('\n');
+  file.flush_if_full();
 }
 
 double relative_balance(const Energies& e) {
@@ -139,7 +94,6 @@ std::string transient_plan_text(const Body<Dim>& body, const TransientPlan& plan
 }
 
 #define PERIMODE_TRANSIENT_OUTPUT(D)                                                  \
-  template class FramesFile<D>;                                                       \
   template std::string transient_start_text<D>(const Body<D>&, const TransientPlan&); \
   template std::string transient_plan_text<D>(const Body<D>&, const TransientPlan&)
 PERIMODE_TRANSIENT_OUTPUT(1);

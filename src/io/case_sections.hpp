@@ -49,6 +49,8 @@ void read_boundary(const Cursor& cursor, InputFiles& files, Model& model);
 [[nodiscard]] StaticOptions read_static(const Cursor& cursor, const BodyFacts& facts, InputFiles& files);
 /// The section analysis.transient of a case whose model and kinematics have been read.
 void read_transient(const Cursor& cursor, InputFiles& files, Case& result);
+/// The section analysis.quasistatic of a case whose model has been read.
+void read_quasistatic(const Cursor& cursor, InputFiles& files, Case& result);
 /// The `analysis` section of a case whose model and kinematics have been read.
 void read_analysis(const Cursor& cursor, InputFiles& files, Case& result);
 [[nodiscard]] OutputSpec read_output(const Cursor& cursor);

@@ -164,4 +164,63 @@ output:
 )";
 }
 
+std::string_view quasistatic_template() {
+  return R"(# A glass plate with an edge crack, pulled apart: the load at which every bond breaks, until it is in two.
+# Run:    perimode quasistatic this_file.yaml
+# Check:  perimode check this_file.yaml      (reads everything, runs nothing)
+# All numbers are plain SI: m, kg, s, N, Pa. Every key is described in docs/case_reference.md.
+title: glass plate with an edge crack, pulled apart
+
+body:
+  dimension: 2                  # 1 bar, 2 plate or slice, 3 solid
+  plane: stress                 # 2D: stress (Poisson's ratio 1/3) | strain (1/4); the theory fixes it
+  thickness: 0.005              # 2D, m   (in 1D: area, m2)
+  particles:
+    grid:                       # particles sit at the centres of square cells
+      lower: [0, 0]             # m
+      upper: [0.1, 0.05]        # the box holds a whole number of cells
+      spacing: 0.0025           # m; finer: 0.00125
+      # remove: [ { ball: { centre: [0.07, 0.03], radius: 0.01 } } ]
+    # file: cloud.csv           # instead of grid: columns x,y,volume[,block] | mesh.msh | mesh.exo
+  horizon: { ratio: 3 }         # in spacings | { length: 0.03 } in m | { neighbours: 30 } (clouds)
+  precracks:                    # bonds that cross these segments are cut
+    - { from: [0.05, 0.0], to: [0.05, 0.0125] }
+
+material:
+  youngs_modulus: 72.0e+9       # Pa
+  density: 2440                 # kg/m3
+  micromodulus: { kernel: constant }   # constant | conical | gaussian (with p) | inverse_distance
+  calibration: discrete         # continuum | discrete | discrete_cut
+  volume_correction: linear     # none | linear | exact (1D)
+  fracture_energy: 3.8          # J/m2; or critical_stretch: 1.0e-4
+
+boundary:
+  - { fix: [x, y], at: { face: x-, layers: 3 } }      # the outermost 3 layers at x-
+  # - { prescribe: { x: 1.0e-5 }, at: { face: x+, layers: 3 } }   # instead of loads: what the load factor scales
+
+analysis:
+  quasistatic:
+    control: event              # event: every break at its exact load factor | steps: loads follow functions of time
+    loads:                      # times the load factor
+      - { traction: [1.0e+6, 0], at: { face: x+, layers: 3 } }    # Pa, on a face
+    # dead_loads: [ { body_force: [0, -24.0e+3] } ]   # in full at every load factor
+    no_fail:                    # no bond of these particles breaks
+      - { face: x-, layers: 5 }
+      - { face: x+, layers: 5 }
+    stop:                       # whichever comes first
+      separated: true           # once a piece that carries load has lost its support
+      # events: 1000
+      # load_drop: 0.9          # once the load has fallen by 90 % of its peak
+    loose: hold                 # pieces left without support: hold | remove
+    griffith: true              # also the load at which the crack grows by Griffith's criterion
+    solver: auto                # auto | update | stale | refactor | iterate
+    fields_every: 100           # events
+    # checkpoint_every: 1000    # events; go on with: perimode quasistatic this_file.yaml --resume
+
+output:
+  directory: out/plate          # load_curve.csv, crack_path.csv, fields.exo (ParaView) and summary.json
+  fields: [displacement, damage]    # also: strain, stress, energy
+)";
+}
+
 }  // namespace perimode

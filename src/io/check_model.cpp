@@ -83,9 +83,14 @@ void check_block_names(const Case& result) {
     }
   };
   if (result.statics) require_loads(result.statics->loads);
-  if (!result.transient) return;
-  require_loads(result.transient->loads);
-  for (const NodalDamping& damping : result.transient->damping) require_region(names, damping.at);
+  if (result.transient) {
+    require_loads(result.transient->loads);
+    for (const NodalDamping& damping : result.transient->damping) require_region(names, damping.at);
+  }
+  if (!result.quasistatic) return;
+  require_loads(result.quasistatic->loads);
+  require_loads(result.quasistatic->dead_loads);
+  for (const Region& region : result.quasistatic->no_fail) require_region(names, region);
 }
 
 void check_horizon(const Model& model) {

@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 namespace {
 
 // A checkpoint is an HDF5 file with a user block of 512 bytes, which HDF5 passes over:
-//   perimode checkpoint / format 1 / xxh3-128 <checksum of the file with zeros in its place> / zero bytes
-constexpr int format = 1;
+//   perimode checkpoint / format 2 / xxh3-128 <checksum of the file with zeros in its place> / zero bytes
+constexpr int format = 2;
 constexpr std::string_view magic = "perimode checkpoint\nformat ";
 constexpr std::size_t header_bytes = 512;
 constexpr std::string_view no_sum = "00000000000000000000000000000000";
@@ -109,20 +109,18 @@ hid_t type_of<std::uint64_t>() {
   return H5T_NATIVE_UINT64;
 }
 
-template <class T>
-void put_attribute(hid_t file, const char* name, std::span<const T> values) {
+void put_attribute(hid_t file, const char* name, std::span<const std::int64_t> values) {
   const hsize_t size = values.size();
   const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-  const Handle attribute(H5Acreate2(file, name, type_of<T>(), space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  check(H5Awrite(attribute, type_of<T>(), values.data()));
+  const Handle attribute(H5Acreate2(file, name, H5T_NATIVE_INT64, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  check(H5Awrite(attribute, H5T_NATIVE_INT64, values.data()));
 }
 
-template <class T>
-void get_attribute(hid_t file, const char* name, std::span<T> values) {
+void get_attribute(hid_t file, const char* name, std::span<std::int64_t> values) {
   const Handle attribute(H5Aopen(file, name, H5P_DEFAULT), H5Aclose);
   const Handle space(H5Aget_space(attribute), H5Sclose);
   if (H5Sget_simple_extent_npoints(space) != static_cast<hssize_t>(values.size())) check(-1);
-  check(H5Aread(attribute, type_of<T>(), values.data()));
+  check(H5Aread(attribute, H5T_NATIVE_INT64, values.data()));
 }
 
 template <class T>
@@ -157,8 +155,12 @@ void get_arrays(hid_t file, const char* group_name, std::map<std::string, std::v
   }
 }
 
-std::array<double, 6> numbers_of(const Energies& e) {
-  return {e.kinetic, e.strain, e.external_work, e.damping, e.broken, e.initial};
+/// A number for each name, as the arrays of one number that the file holds.
+std::map<std::string, std::vector<std::int64_t>> arrays_of(
+    const std::map<std::string, std::int64_t>& numbers) {
+  std::map<std::string, std::vector<std::int64_t>> arrays;
+  for (const auto& [name, number] : numbers) arrays[name] = {number};
+  return arrays;
 }
 
 /// The bytes of an HDF5 file that holds the checkpoint.
@@ -167,11 +169,8 @@ std::string encode(const Checkpoint& checkpoint) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   check(H5Pset_fapl_core(access, memory_step, 0));
   const Handle file(H5Fcreate(latest_name, H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-  const std::array<std::int64_t, 3> counters = {checkpoint.state.step, checkpoint.history_bytes,
-                                                checkpoint.frames};
-  put_attribute<std::int64_t>(file, "step, history_bytes, frames", counters);
-  put_attribute<double>(file, "kinetic, strain, external_work, damping, broken, initial [J]",
-                        numbers_of(checkpoint.last_energies));
+  const std::array<std::int64_t, 2> counters = {checkpoint.state.step, checkpoint.frames};
+  put_attribute(file, "step, frames", counters);
   {
     const Handle text(H5Tcopy(H5T_C_S1), H5Tclose);
     check(H5Tset_size(text, checkpoint.case_digest.size() + 1));
@@ -179,6 +178,7 @@ std::string encode(const Checkpoint& checkpoint) {
     const Handle attribute(H5Acreate2(file, "case_digest", text, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     check(H5Awrite(attribute, text, checkpoint.case_digest.c_str()));
   }
+  put_arrays(file, "bytes", arrays_of(checkpoint.bytes));
   put_arrays(file, "numbers", checkpoint.state.numbers);
   put_arrays(file, "bits", checkpoint.state.bits);
   check(H5Fflush(file, H5F_SCOPE_GLOBAL));
@@ -194,14 +194,10 @@ Checkpoint decode(std::string& image) {
   check(H5Pset_file_image(access, image.data(), image.size()));
   const Handle file(H5Fopen(latest_name, H5F_ACC_RDONLY, access), H5Fclose);
   Checkpoint checkpoint;
-  std::array<std::int64_t, 3> counters = {};
-  get_attribute<std::int64_t>(file, "step, history_bytes, frames", counters);
+  std::array<std::int64_t, 2> counters = {};
+  get_attribute(file, "step, frames", counters);
   checkpoint.state.step = counters[0];
-  checkpoint.history_bytes = counters[1];
-  checkpoint.frames = counters[2];
-  std::array<double, 6> e = {};
-  get_attribute<double>(file, "kinetic, strain, external_work, damping, broken, initial [J]", e);
-  checkpoint.last_energies = {e[0], e[1], e[2], e[3], e[4], e[5]};
+  checkpoint.frames = counters[1];
   {
     const Handle attribute(H5Aopen(file, "case_digest", H5P_DEFAULT), H5Aclose);
     const Handle text(H5Aget_type(attribute), H5Tclose);
@@ -209,6 +205,9 @@ Checkpoint decode(std::string& image) {
     check(H5Aread(attribute, text, checkpoint.case_digest.data()));
     checkpoint.case_digest.pop_back();
   }
+  std::map<std::string, std::vector<std::int64_t>> bytes;
+  get_arrays(file, "bytes", bytes);
+  for (const auto& [name, number] : bytes) checkpoint.bytes[name] = number.at(0);
   get_arrays(file, "numbers", checkpoint.state.numbers);
   get_arrays(file, "bits", checkpoint.state.bits);
   return checkpoint;
@@ -252,13 +251,15 @@ void rename_in(const fs::path& folder, const char* from, const char* to) {
 
 }  // namespace
 
-std::string case_digest(const std::string& canonical, const std::vector<fs::path>& files) {
+std::string case_digest(const std::string& analysis, const std::string& canonical,
+                        const std::vector<fs::path>& files) {
   Hash hash;
   const auto add = [&hash](std::string_view part) {
     hash.add(fmt::format("{}\n", part.size()));  // where parts end counts
     hash.add(part);
   };
   add(fmt::format("format {}", format));
+  add(analysis);
   add(canonical);
   for (const fs::path& file : files) {
     const std::optional<std::string> bytes = content(file);
@@ -316,10 +317,11 @@ std::optional<Checkpoint> read_checkpoint(const fs::path& folder, const std::str
     bytes->erase(0, header_bytes);
     Checkpoint checkpoint = decode(*bytes);
     if (checkpoint.case_digest != case_digest) {
-      invalid_input({"a checkpoint of this case",
-                     "one of another case, or of this one before it or a file it names was changed",
-                     "go on with the case as it was, start anew with --force, or give another --output",
-                     {file.string()}});
+      invalid_input(
+          {"a checkpoint of this case",
+           "one of another case or analysis, or of this one before it or a file it names was changed",
+           "go on with the case as it was, start anew with --force, or give another --output",
+           {file.string()}});
     }
     if (!damaged.empty()) {
       sink.warn(fmt::format("{} is damaged; going on from the checkpoint before", damaged));

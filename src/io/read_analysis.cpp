@@ -69,11 +69,10 @@ void read_analysis(const Cursor& cursor, InputFiles& files, Case& result) {
     result.static_where = statics->where();
   }
   if (const auto transient = analysis.find("transient")) read_transient(*transient, files, result);
-  for (const char* name : {"quasistatic", "dispersion"}) {
-    const auto other = analysis.find(name);
-    if (other && other->node().kind != CaseNode::Kind::map && other->node().kind != CaseNode::Kind::null) {
-      other->complain("a map", "each analysis has its own keys");
-    }
+  if (const auto quasistatic = analysis.find("quasistatic")) read_quasistatic(*quasistatic, files, result);
+  const auto other = analysis.find("dispersion");
+  if (other && other->node().kind != CaseNode::Kind::map && other->node().kind != CaseNode::Kind::null) {
+    other->complain("a map", "each analysis has its own keys");
   }
 }
 

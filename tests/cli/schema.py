@@ -68,6 +68,17 @@ analysis:
     fields_at: [0, 5.0e-4]
     checkpoint_every: 1000
   quasistatic:
+    control: event
+    loads: [ { traction: [0, 1.0e+6], at: { face: y+, layers: 1 }, time: constant }, { force: [1, 0] } ]
+    dead_loads: [ { body_force: [0, -9.81], at: { block: edge } } ]
+    no_fail: [ { face: y-, layers: 2 }, { block: inclusion } ]
+    stop: { separated: true, events: 1000, load_drop: 0.9 }
+    loose: remove
+    solver: update
+    tolerance: 1.0e-9
+    griffith: true
+    fields_every: 100
+    checkpoint_every: 500
 output: { directory: out/plate, fields: [displacement, velocity, damage, strain, stress, energy] }
 """,
     "bar": """
@@ -78,13 +89,15 @@ material: { youngs_modulus: "68.0e+9", density: 2700, micromodulus: { kernel: in
 boundary:
   - { wall: x-, type: surface_nodes, traction: 1.0e+6, time: { expression: "sin(pi*t)" } }
   - { wall: x+, type: surface_nodes, displacement: ["1e-3*x"], time: { step: 1.0e-4 } }
-analysis: { modal: { range: [0, 5000] }, static: , transient: { method: newmark, beta: 0.3, gamma: 0.6, end: 1, solver: cg, tolerance: 1.0e-10, fields_every: 5 } }
+analysis: { modal: { range: [0, 5000] }, static: , transient: { method: newmark, beta: 0.3, gamma: 0.6, end: 1, solver: cg, tolerance: 1.0e-10, fields_every: 5 },
+            quasistatic: { control: steps, steps: 50, end: 2, break_at_once: 3, stop: { separated: false },
+                           loads: [ { force: [1], at: { nearest: [1] }, time: { ramp: 2 } } ] } }
 """,
     "solid": """
 body: { dimension: 3, particles: { grid: { lower: [0, 0, 0], upper: [1, 1, 1], spacing: 0.1 } }, horizon: { ratio: 2 },
         precracks: [ { polygon: [[0, 0, 0.5], [0.5, 0, 0.5], [0.5, 1, 0.5]] } ] }
 material: { youngs_modulus: 68.0e+9, density: 2700 }
-analysis: { modal: , transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
+analysis: { modal: , quasistatic: , transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
 """,
     "cloud": """
 title: cloud
@@ -103,7 +116,7 @@ analysis:
 def samples():
     """Name and text of the valid cases of the project."""
     yield from FULL.items()
-    for command in ("modal", "static", "transient"):
+    for command in ("modal", "static", "transient", "quasistatic"):
         run = subprocess.run([PROGRAM, "new", command], capture_output=True, text=True, check=True)
         yield f"new {command}", run.stdout
     for folder in ("studies", "tests/bench", "tests/fuzz/corpus/case"):
@@ -240,7 +253,7 @@ class Schema(unittest.TestCase):
 
 # Complaints about how the parts of a case fit together, which a schema cannot know.
 ABOUT_MEANING = re.compile("expected the name of a block|`p` with the kernel gaussian only|: an existing file|expected a formula of"
-                           "|a list of . numbers or formulas|a step of at most")
+                           "|a list of . numbers or formulas|a step of at most|false without a pre-crack")
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1], verbosity=0)

@@ -10,6 +10,7 @@
 #include "perimode/assembly/bond_forces.hpp"
 #include "perimode/assembly/model.hpp"
 #include "perimode/dynamics/transient.hpp"
+#include "perimode/fracture/quasistatic.hpp"
 #include "perimode/io/initial_state.hpp"
 #include "perimode/modal/options.hpp"
 #include "perimode/statics/static.hpp"
@@ -33,6 +34,8 @@ struct Case {
   std::optional<TransientOptions> transient;  ///< with the case's kinematics
   InitialSpec initial;                        ///< of the transient analysis
   Where transient_where = {};
+  std::optional<QuasistaticOptions> quasistatic;  ///< as the case gives it: no critical stretches yet
+  Where quasistatic_where = {};
   Kinematics kinematics = Kinematics::linear;
   OutputSpec output;
   std::filesystem::path file;

@@ -14,4 +14,7 @@ namespace perimode {
 /// A complete, commented case of a transient analysis, as `perimode new transient` prints it.
 [[nodiscard]] std::string_view transient_template();
 
+/// A complete, commented case of a quasi-static analysis, as `perimode new quasistatic` prints it.
+[[nodiscard]] std::string_view quasistatic_template();
+
 }  // namespace perimode

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,24 +13,24 @@
 
 namespace perimode {
 
-/// A transient run at a step, and how much of its output files belongs to it.
+/// A run at a step, and how much of its output files belongs to it.
 struct Checkpoint {
   std::string case_digest;  ///< of everything the run's numbers depend on
   IntegratorState state;
-  std::int64_t history_bytes = 0;  ///< of history.csv
-  std::int64_t frames = 0;         ///< of fields.exo
-  Energies last_energies;          ///< of the last history row
+  std::map<std::string, std::int64_t> bytes = {};  ///< of its text files, by name
+  std::int64_t frames = 0;                         ///< of fields.exo
 };
 
-/// What tells one case from another, 32 hexadecimal digits: of its canonical text, the contents of the files
-/// it names and the format of checkpoints. Throws environment for a file that cannot be read.
-[[nodiscard]] std::string case_digest(const std::string& canonical,
+/// What tells one run from another, 32 hexadecimal digits: of the analysis ("transient"), the canonical text of
+/// the case, the contents of the files it names and the format of checkpoints. Throws environment for a file
+/// that cannot be read.
+[[nodiscard]] std::string case_digest(const std::string& analysis, const std::string& canonical,
                                       const std::vector<std::filesystem::path>& files);
 
 /// Writes `checkpoint.h5` (HDF5, with a checksum over all bytes) in a folder: into a file aside, synced,
 /// then renamed; the checkpoint before becomes `checkpoint.previous.h5`. Throws environment (full disk), with
 /// both earlier files as they were. Memory: twice the state.
-/// @pre no name in the state holds a '/'.
+/// @pre no name in it holds a '/'.
 void write_checkpoint(const std::filesystem::path& folder, const Checkpoint& checkpoint);
 
 /// The latest checkpoint of the folder that is whole and of this case. One that is truncated or damaged is
