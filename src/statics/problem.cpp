@@ -19,16 +19,6 @@ namespace {
 /// |r . f| / (|r| |f|) at or below this is equilibrium.
 constexpr double equilibrium = 1e-9;
 
-template <int Dim>
-Eigen::VectorXd free_part(const Body<Dim>& body, const Eigen::VectorXd& all) {
-  Eigen::VectorXd part(body.boundary.free);
-  for (Eigen::Index d = 0; d < all.size(); ++d) {
-    const Index number = body.boundary.free_number[static_cast<std::size_t>(d)];
-    if (number >= 0) part[number] = all[d];
-  }
-  return part;
-}
-
 /// "translation along y", "rotation", with the piece that moves where there are several.
 template <int Dim>
 std::string motion_name(const Body<Dim>& body, const Eigen::VectorXd& mode) {
@@ -65,13 +55,25 @@ std::string motion_name(const Body<Dim>& body, const Eigen::VectorXd& mode) {
   return text;
 }
 
+}  // namespace
+
 template <int Dim>
-void check_equilibrium(const Body<Dim>& body, const StaticProblem& problem) {
+Eigen::VectorXd free_part(const Body<Dim>& body, const Eigen::VectorXd& all) {
+  Eigen::VectorXd part(body.boundary.free);
+  for (Eigen::Index d = 0; d < all.size(); ++d) {
+    const Index number = body.boundary.free_number[static_cast<std::size_t>(d)];
+    if (number >= 0) part[number] = all[d];
+  }
+  return part;
+}
+
+template <int Dim>
+void check_equilibrium(const Body<Dim>& body, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& rhs) {
   std::string free;
   int count = 0;
-  for (Eigen::Index k = 0; k < problem.rigid.cols(); ++k) {
-    const auto mode = problem.rigid.col(k);
-    if (std::abs(mode.dot(problem.rhs)) <= equilibrium * mode.norm() * problem.rhs.norm()) continue;
+  for (Eigen::Index k = 0; k < rigid.cols(); ++k) {
+    const auto mode = rigid.col(k);
+    if (std::abs(mode.dot(rhs)) <= equilibrium * mode.norm() * rhs.norm()) continue;
     if (++count > 3) break;
     free += (count > 1 ? ", " : "") + motion_name<Dim>(body, mode);
   }
@@ -83,8 +85,6 @@ void check_equilibrium(const Body<Dim>& body, const StaticProblem& problem) {
        "layers: 1 } } ], or balance the loads",
        {}});
 }
-
-}  // namespace
 
 template <int Dim>
 StaticProblem pose_problem(const Body<Dim>& body, const StaticOptions& options) {
@@ -113,7 +113,7 @@ StaticProblem pose_problem(const Body<Dim>& body, const StaticOptions& options) 
   p.mass = lumped_mass(body);
   p.rigid = rigid_modes(body, p.stiffness, p.mass);
   if (p.symmetric()) {
-    check_equilibrium(body, p);
+    check_equilibrium(body, p.rigid, p.rhs);
   } else if (p.rigid.cols() > 0) {
     invalid_input({"supports that hold the body, where walls make its equations unsymmetric",
                    "a free " + motion_name<Dim>(body, p.rigid.col(0)),
@@ -144,8 +144,10 @@ FactorDofs factor_dofs(const Body<Dim>& body, const Eigen::MatrixXd& rigid) {
   return dofs;
 }
 
-#define PERIMODE_PROBLEM(D)                                                     \
-  template StaticProblem pose_problem<D>(const Body<D>&, const StaticOptions&); \
+#define PERIMODE_PROBLEM(D)                                                                           \
+  template void check_equilibrium<D>(const Body<D>&, const Eigen::MatrixXd&, const Eigen::VectorXd&); \
+  template Eigen::VectorXd free_part<D>(const Body<D>&, const Eigen::VectorXd&);                      \
+  template StaticProblem pose_problem<D>(const Body<D>&, const StaticOptions&);                       \
   template FactorDofs factor_dofs<D>(const Body<D>&, const Eigen::MatrixXd&)
 PERIMODE_PROBLEM(1);
 PERIMODE_PROBLEM(2);

@@ -22,6 +22,15 @@ struct StaticProblem {
   [[nodiscard]] bool symmetric() const { return asymmetry <= symmetric_to_round_off; }
 };
 
+/// The free dofs of a vector over all particle dofs.
+template <int Dim>
+[[nodiscard]] Eigen::VectorXd free_part(const Body<Dim>& body, const Eigen::VectorXd& all);
+
+/// Throws invalid_input where a force on the free dofs works on a rigid motion (columns of `rigid`) that is
+/// free.
+template <int Dim>
+void check_equilibrium(const Body<Dim>& body, const Eigen::MatrixXd& rigid, const Eigen::VectorXd& force);
+
 /// Throws invalid_input: loads that do not fit the body, nothing that loads or moves it, loads that are not
 /// in equilibrium where nothing holds it.
 template <int Dim>

@@ -14,7 +14,6 @@
 #include "perimode/core/sink.hpp"
 #include "perimode/dynamics/motion.hpp"
 #include "perimode/fracture/crack_area.hpp"
-#include "perimode/fracture/griffith.hpp"
 #include "perimode/geometry/region.hpp"
 #include "perimode/linalg/updated_solver.hpp"
 
@@ -52,7 +51,7 @@ struct QuasistaticOptions {
   Index break_at_once = 0;  ///< steps: the worst so many over-stretched bonds break between solutions; 0: all
   UpdatedSolverOptions solver = {};
   bool matrix_free = false;  ///< no factor: conjugate gradients on the operator (also chosen where none fits)
-  bool griffith = false;     ///< the Griffith load of the first pre-crack, by compliance
+  bool griffith = false;     ///< also the Griffith load of the first pre-crack (griffith.hpp), before the run
   std::int64_t fields_every = 0;              ///< events (steps); 0: the first and last state alone
   std::int64_t checkpoint_every = 0;          ///< events (steps); 0: none but at an interruption
   std::vector<double> critical_stretch = {};  ///< per block
@@ -154,7 +153,6 @@ struct QuasistaticResult {
   std::int64_t peak_event = 0;
   Offset broken_bonds = 0;
   QuasistaticRow last;  ///< energies at the last row
-  std::optional<GriffithLoad> griffith;
   std::vector<LoosePiece> loose;
   std::array<WayTotals, solve_ways> ways = {};
   double worst_residual = 0.0;
