@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "block_form.hpp"
+
 namespace perimode {
 
 namespace {
@@ -187,6 +189,31 @@ void fill_plain_row(const GridBonds<Dim>& bonds, const OrbitBlocks<Dim>& orbits,
   std::copy(sum.begin(), sum.end(), diagonal == nullptr ? row : diagonal);
 }
 
+/// A plain row of a grid of one material whose pattern may hold bonds that broke since.
+template <int Dim>
+void refill_plain_row(const Body<Dim>& body, const GridBonds<Dim>& bonds, const OrbitBlocks<Dim>& orbits,
+                      BlockCsr& m, Index i) {
+  constexpr int nb = block_size<Dim>;
+  const auto& factor = body.constants.factor;
+  const Index* column = m.column.data() + m.row_start[i];
+  const Index* last = m.column.data() + m.row_start[i + 1];
+  double* block = m.value.data() + m.row_start[i] * nb;
+  std::fill(block, block + (last - column) * nb, 0.0);
+  std::array<double, nb> sum = {};
+  double* diagonal = block + (std::lower_bound(column, last, i) - column) * nb;
+  for_each_bond(bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+    for (; *column != end.neighbour; ++column) block += nb;
+    const double f = factor.empty() ? 1.0 : 0.5 * (factor[i] + factor[end.neighbour]);
+    const double* plus = orbits.plus.data() + static_cast<std::size_t>(end.slot) * nb;
+    for (int b = 0; b < nb; ++b) {
+      const double p = f * plus[b];
+      block[b] = -p;
+      sum[b] += p;
+    }
+  });
+  std::copy(sum.begin(), sum.end(), diagonal);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -252,6 +279,19 @@ void fill_stiffness(const Body<Dim>& body, BlockCsr& matrix) {
     } else {
       fill_row(body, matrix, i);
     }
+  }
+}
+
+template <int Dim>
+void refill_rows(const Body<Dim>& body, std::span<const Index> particles, BlockCsr& matrix) {
+  const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds);
+  const bool plain = grid != nullptr && body.density.size() == 1;
+  const auto orbits = plain ? orbit_blocks(body, *grid) : OrbitBlocks<Dim>{};
+  for (const Index i : particles) {
+    if (plain && plain_row(*grid, body.particles, i))
+      refill_plain_row(body, *grid, orbits, matrix, i);
+    else
+      fill_row(body, matrix, i);
   }
 }
 
@@ -326,13 +366,14 @@ Eigen::VectorXd bond_energy(const Body<Dim>& body, const Eigen::MatrixXd& displa
   return total.transpose();
 }
 
-#define PERIMODE_ASSEMBLE(D)                                           \
-  template BlockCsr stiffness_pattern<D>(const Body<D>&);              \
-  template void fill_stiffness<D>(const Body<D>&, BlockCsr&);          \
-  template BlockCsr assemble_stiffness<D>(const Body<D>&);             \
-  template Eigen::VectorXd lumped_mass<D>(const Body<D>&);             \
-  template std::vector<Index> particle_of_free_dof<D>(const Body<D>&); \
-  template Eigen::MatrixXd particle_positions<D>(const Body<D>&);      \
+#define PERIMODE_ASSEMBLE(D)                                                       \
+  template BlockCsr stiffness_pattern<D>(const Body<D>&);                          \
+  template void fill_stiffness<D>(const Body<D>&, BlockCsr&);                      \
+  template void refill_rows<D>(const Body<D>&, std::span<const Index>, BlockCsr&); \
+  template BlockCsr assemble_stiffness<D>(const Body<D>&);                         \
+  template Eigen::VectorXd lumped_mass<D>(const Body<D>&);                         \
+  template std::vector<Index> particle_of_free_dof<D>(const Body<D>&);             \
+  template Eigen::MatrixXd particle_positions<D>(const Body<D>&);                  \
   template Eigen::VectorXd bond_energy<D>(const Body<D>&, const Eigen::MatrixXd&)
 PERIMODE_ASSEMBLE(1);
 PERIMODE_ASSEMBLE(2);

@@ -78,8 +78,8 @@ template <int Dim>
   for (Index i = begin; i < end; ++i) {
     const std::size_t dof = static_cast<std::size_t>(i) * Dim;
     double sum[Dim];
-    sum_ends<Dim>(form.b.data() + form.start[i] * Dim, form.neighbour.data() + form.start[i],
-                  form.start[i + 1] - form.start[i], u, u + dof, sum);
+    sum_ends<Dim>(form.b.data() + form.start[i] * Dim, form.neighbour.data() + form.start[i], form.ends[i], u,
+                  u + dof, sum);
     for (int a = 0; a < Dim; ++a) {
       if (number == nullptr)
         y[dof + a - first] = sum[a];
@@ -174,17 +174,30 @@ Index BondForm<Dim>::pieces() const {
 }
 
 template <int Dim>
+void BondForm<Dim>::remove(Index particle, Offset position) {
+  const Offset at = start[particle] + position;
+  const Offset last = start[particle] + ends[particle]--;
+  std::copy(neighbour.begin() + at + 1, neighbour.begin() + last, neighbour.begin() + at);
+  std::copy(b.begin() + (at + 1) * Dim, b.begin() + last * Dim, b.begin() + at * Dim);
+}
+
+template <int Dim>
 BondForm<Dim> make_bond_form(const Body<Dim>& body) {
   const Index n = body.count();
   BondForm<Dim> form;
   form.body = &body;
-  form.start.assign(static_cast<std::size_t>(n) + 1, 0);
+  form.start.assign(static_cast<std::size_t>(n), 0);
+  form.ends.assign(static_cast<std::size_t>(n), 0);
 #pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index i = 0; i < n; ++i)
-    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>&) { ++form.start[i + 1]; });
-  for (Index i = 0; i < n; ++i) form.start[i + 1] += form.start[i];
-  form.neighbour.resize(static_cast<std::size_t>(form.start[n]));
-  form.b.resize(static_cast<std::size_t>(form.start[n]) * Dim);
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>&) { ++form.ends[i]; });
+  Offset ends = 0;
+  for (Index i = 0; i < n; ++i) {
+    form.start[i] = ends;
+    ends += form.ends[i];
+  }
+  form.neighbour.resize(static_cast<std::size_t>(ends));
+  form.b.resize(static_cast<std::size_t>(ends) * Dim);
 #pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index i = 0; i < n; ++i) {
     Offset at = form.start[i];
@@ -209,8 +222,7 @@ double bond_form_bytes(const Body<Dim>& body) {
   const double points =
       unconstrained(body) ? 0.0 : static_cast<double>(n) + static_cast<double>(body.boundary.image.size());
   return static_cast<double>(ends) * (sizeof(Index) + Dim * sizeof(double)) +
-         (static_cast<double>(n) + 1.0) * sizeof(Offset) + points * Dim * sizeof(double) +
-         sizeof(BondForm<Dim>);
+         n * (sizeof(Offset) + sizeof(Index)) + points * Dim * sizeof(double) + sizeof(BondForm<Dim>);
 }
 
 #define PERIMODE_BOND_FORM(D)                             \

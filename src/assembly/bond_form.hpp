@@ -12,7 +12,8 @@ namespace perimode {
 template <int Dim>
 struct BondForm {
   const Body<Dim>* body = nullptr;
-  std::vector<Offset> start;     ///< particles + 1
+  std::vector<Offset> start;     ///< of each particle's ends
+  std::vector<Index> ends;       ///< how many it has
   std::vector<Index> neighbour;  ///< from the number of particles on: ghosts
   std::vector<double> b;         ///< Dim per end, sqrt(N/m)
   std::vector<double> u;         ///< work: displacements of all particles and ghosts; empty: those given
@@ -22,6 +23,9 @@ struct BondForm {
   /// The same piece by piece. Displacements that are taken into `u` first leave x to `take`.
   void apply(const double* x, const std::function<void(const RowPiece&)>& take);
   [[nodiscard]] Index pieces() const;
+
+  /// Takes out the `position`-th end of a particle; those after it close up. Cost O(family).
+  void remove(Index particle, Offset position);
 };
 
 /// Cost O(bond ends). `body` has to outlive it.

@@ -6,89 +6,14 @@
 #include <memory>
 #include <utility>
 
+#include "block_form.hpp"
 #include "bond_form.hpp"
-#include "perimode/assembly/assemble.hpp"
 #include "perimode/core/error.hpp"
 #include "stencil.hpp"
 
 namespace perimode {
 
 namespace {
-
-/// Blocked rows over all dofs of the particles; fixed ones are zero on the way in and left out on the way
-/// out.
-template <int Dim>
-struct BlockForm {
-  const BoundaryMap<Dim>* boundary;
-  BlockCsr matrix;
-  std::vector<double> u, f;  ///< work; empty where all dofs are free
-
-  void apply(const double* x, double* y) {
-    if (u.empty()) {
-      const auto dofs = boundary->free_number.size();
-      return multiply(matrix, {x, dofs}, {y, dofs});
-    }
-    const auto dofs = static_cast<Offset>(u.size());
-#pragma omp parallel for schedule(static)
-    for (Offset d = 0; d < dofs; ++d) u[d] = boundary->free_number[d] < 0 ? 0.0 : x[boundary->free_number[d]];
-    multiply(matrix, u, f);
-#pragma omp parallel for schedule(static)
-    for (Offset d = 0; d < dofs; ++d)
-      if (boundary->free_number[d] >= 0) y[boundary->free_number[d]] = f[d];
-  }
-};
-
-template <int Dim>
-bool all_free(const BoundaryMap<Dim>& boundary) {
-  return static_cast<std::size_t>(boundary.free) == boundary.free_number.size();
-}
-
-template <int Dim>
-BlockForm<Dim> make_block_form(const Body<Dim>& body) {
-  BlockForm<Dim> form{&body.boundary, assemble_stiffness(body), {}, {}};
-  if (!all_free(body.boundary)) {
-    form.u.resize(body.boundary.free_number.size());
-    form.f.resize(body.boundary.free_number.size());
-  }
-  return form;
-}
-
-/// Particles that bonds of particle i meet, directly or through ghosts, and i itself.
-template <int Dim>
-Offset columns_of(const Body<Dim>& body, Index i) {
-  std::vector<Index> column = {i};
-  for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-    if (end.neighbour < body.count()) {
-      column.push_back(end.neighbour);
-    } else {
-      for_each_image(body.boundary, static_cast<std::size_t>(end.neighbour - body.count()),
-                     [&](Index j, const double*) { column.push_back(j); });
-    }
-  });
-  std::sort(column.begin(), column.end());
-  return std::unique(column.begin(), column.end()) - column.begin();
-}
-
-template <int Dim>
-double block_form_bytes(const Body<Dim>& body) {
-  Offset blocks = 0;
-#pragma omp parallel for schedule(static) reduction(+ : blocks)
-  for (Index i = 0; i < body.count(); ++i) blocks += columns_of(body, i);
-  const double dofs = all_free(body.boundary) ? 0.0 : static_cast<double>(body.boundary.free_number.size());
-  return static_cast<double>(blocks) * (sizeof(Index) + Dim * Dim * sizeof(double)) +
-         (body.count() + 1.0) * sizeof(Offset) + 2.0 * dofs * sizeof(double) + sizeof(BlockForm<Dim>);
-}
-
-/// The form that `automatic` stands for.
-template <int Dim>
-StiffnessForm chosen_form(const Body<Dim>& body, StiffnessForm form) {
-  const bool grid = std::holds_alternative<GridBonds<Dim>>(body.bonds);
-  if (form == StiffnessForm::automatic) return grid ? StiffnessForm::stencil : StiffnessForm::bonds;
-  if (form == StiffnessForm::stencil && !grid) {
-    invalid_input({"a grid for the stencil form of K", "a cloud", "use the form bonds or blocks", {}});
-  }
-  return form;
-}
 
 template <class Form>
 LinearOperator shared_operator(Index size, Form form) {
@@ -105,6 +30,16 @@ RowProduct shared_rows(Index size, Index pieces, bool in_place, Form form) {
 }
 
 }  // namespace
+
+template <int Dim>
+StiffnessForm chosen_form(const Body<Dim>& body, StiffnessForm form) {
+  const bool grid = std::holds_alternative<GridBonds<Dim>>(body.bonds);
+  if (form == StiffnessForm::automatic) return grid ? StiffnessForm::stencil : StiffnessForm::bonds;
+  if (form == StiffnessForm::stencil && !grid) {
+    invalid_input({"a grid for the stencil form of K", "a cloud", "use the form bonds or blocks", {}});
+  }
+  return form;
+}
 
 template <int Dim>
 LinearOperator stiffness_operator(const Body<Dim>& body, StiffnessForm form) {
@@ -240,6 +175,7 @@ double stiffness_bound(const Body<Dim>& body) {
 }
 
 #define PERIMODE_OPERATORS(D)                                                                                \
+  template StiffnessForm chosen_form<D>(const Body<D>&, StiffnessForm);                                      \
   template LinearOperator stiffness_operator<D>(const Body<D>&, StiffnessForm);                              \
   template RowProduct stiffness_rows<D>(const Body<D>&, StiffnessForm);                                      \
   template double operator_bytes<D>(const Body<D>&, StiffnessForm);                                          \

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "perimode/assembly/body.hpp"
@@ -43,14 +45,15 @@ template <int Dim>
 struct Stencil {
   const Body<Dim>* body = nullptr;
   const GridBonds<Dim>* bonds = nullptr;
-  Index layers = 0;             ///< of the body
-  int reach = 0;                ///< layers a bond can cross
-  Index layer_cells = 0;        ///< cells of a padded layer
-  std::ptrdiff_t stride = 0;    ///< numbers of a component of a layer
-  std::vector<int> pair;        ///< family member of each pair (StencilPairs)
-  std::vector<int> pair_start;  ///< per pattern of components
-  std::vector<double> b;        ///< sqrt(k_b) n per set, pair and component
-  std::vector<double> factor;   ///< calibration factors over the padded grid; empty: all 1
+  Index layers = 0;                              ///< of the body
+  int reach = 0;                                 ///< layers a bond can cross
+  Index layer_cells = 0;                         ///< cells of a padded layer
+  std::ptrdiff_t stride = 0;                     ///< numbers of a component of a layer
+  std::vector<int> pair;                         ///< family member of each pair (StencilPairs)
+  std::vector<int> pair_start;                   ///< per pattern of components
+  std::vector<double> b;                         ///< sqrt(k_b) n per set, pair and component
+  std::map<std::pair<int, double>, Index> sets;  ///< by material and calibration factor
+  std::vector<double> factor;                    ///< calibration factors over the padded grid; empty: all 1
   std::vector<ParticleRun> run;
   std::vector<Index> layer_run;  ///< first run of each layer
   std::vector<FillRun> fill;
@@ -84,5 +87,11 @@ struct Stencil {
 /// Cost O(bond ends). `body` has to outlive the stencil. @pre a grid.
 template <int Dim>
 [[nodiscard]] Stencil<Dim> make_stencil(const Body<Dim>& body);
+
+/// A particle whose family was whole has lost bonds: it and others of its group are summed as partial from
+/// now on. Numbers of pieces are not renewed, so products piece by piece are over. Cost O(log runs + layers)
+/// and moving the runs that follow.
+template <int Dim>
+void family_no_longer_whole(Stencil<Dim>& stencil, Index particle);
 
 }  // namespace perimode

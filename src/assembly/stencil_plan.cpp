@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "stencil.hpp"
@@ -107,6 +106,14 @@ Index add_set(Stencil<Dim>& s, int block, double factor) {
   return number;
 }
 
+/// The set of a material and factor, made where it is new.
+template <int Dim>
+Index numbered_set(Stencil<Dim>& s, int material, double factor) {
+  const auto [at, fresh] = s.sets.emplace(std::pair(material, factor), 0);
+  if (fresh) at->second = add_set(s, material, factor);
+  return at->second;
+}
+
 /// Free dofs of a particle: all, some or none.
 enum class Dofs { all, some, none };
 
@@ -128,13 +135,9 @@ void add_particle_runs(Stencil<Dim>& s) {
 #pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index i = 0; i < n; ++i) families[i] = classes.families(i);
 
-  std::map<std::pair<int, double>, Index> sets;  // by material and factor
   const auto set_of = [&](Index i) {
-    const std::pair key(classes.material[body.particles.block[i]],
+    return numbered_set(s, classes.material[body.particles.block[i]],
                         families[i] == Families::whole ? classes.factor(i) : 1.0);
-    const auto [at, fresh] = sets.emplace(key, 0);
-    if (fresh) at->second = add_set(s, key.first, key.second);
-    return at->second;
   };
   s.layer_run.assign(static_cast<std::size_t>(s.layers) + 1, 0);
   for (Index first = 0, last = 0; first < n; first = last) {
@@ -227,8 +230,66 @@ Stencil<Dim> make_stencil(const Body<Dim>& body) {
   return s;
 }
 
-template Stencil<1> make_stencil<1>(const Body<1>&);
-template Stencil<2> make_stencil<2>(const Body<2>&);
-template Stencil<3> make_stencil<3>(const Body<3>&);
+template <int Dim>
+void family_no_longer_whole(Stencil<Dim>& s, Index particle) {
+  const auto holds = [&](const ParticleRun& r) {
+    return r.particle <= particle && particle < r.particle + r.count;
+  };
+  auto at = std::upper_bound(s.run.begin(), s.run.end(), particle,
+                             [](Index i, const ParticleRun& r) { return i < r.particle; });
+  if (at == s.run.begin() || !holds(*--at) || at->families != Families::whole) return;
+  // Of the whole run a group becomes partial; what is left on either side stays whole.
+  const ParticleRun whole = *at;
+  const auto part = [&whole](Index begin, Index end) {
+    ParticleRun run = whole;
+    run.cell += begin;
+    run.particle += begin;
+    run.count = end - begin;
+    if (run.dof >= 0) run.dof += begin * Dim;
+    return run;
+  };
+  const Index begin = (particle - whole.particle) / stencil_slack * stencil_slack;
+  const Index end = std::min(begin + stencil_slack, whole.count);
+  ParticleRun partial = part(begin, end);
+  partial.families = Families::partial;
+  partial.set = numbered_set(s, Classes<Dim>(*s.body).material[s.body->particles.block[particle]], 1.0);
+  // Neighbours of the same row that are partial already take it in.
+  const auto next_to = [&](const ParticleRun& a, const ParticleRun& b) {
+    return a.families == Families::partial && b.families == Families::partial && a.set == b.set &&
+           a.cell + a.count == b.cell && a.particle + a.count == b.particle && (a.dof >= 0) == (b.dof >= 0);
+  };
+  std::vector<ParticleRun> parts;
+  if (begin > 0) parts.push_back(part(0, begin));
+  parts.push_back(partial);
+  if (end < whole.count) parts.push_back(part(end, whole.count));
+  const Index layer = static_cast<Index>(
+      std::upper_bound(s.layer_run.begin(), s.layer_run.end(), static_cast<Index>(at - s.run.begin())) -
+      s.layer_run.begin() - 1);
+  auto first = at;
+  auto last = at + 1;
+  if (begin == 0 && at - s.run.begin() > s.layer_run[layer] && next_to(*(at - 1), parts.front())) {
+    parts.front().cell = (at - 1)->cell;
+    parts.front().particle = (at - 1)->particle;
+    parts.front().count += (at - 1)->count;
+    parts.front().dof = (at - 1)->dof;
+    --first;
+  }
+  if (end == whole.count && last - s.run.begin() < s.layer_run[layer + 1] && next_to(parts.back(), *last)) {
+    parts.back().count += last->count;
+    ++last;
+  }
+  const auto change = static_cast<Index>(parts.size()) - static_cast<Index>(last - first);
+  const auto place = s.run.erase(first, last);
+  s.run.insert(place, parts.begin(), parts.end());
+  for (Index l = layer + 1; l <= s.layers; ++l) s.layer_run[l] += change;
+}
+
+#define PERIMODE_STENCIL_PLAN(D)                       \
+  template Stencil<D> make_stencil<D>(const Body<D>&); \
+  template void family_no_longer_whole<D>(Stencil<D>&, Index)
+PERIMODE_STENCIL_PLAN(1);
+PERIMODE_STENCIL_PLAN(2);
+PERIMODE_STENCIL_PLAN(3);
+#undef PERIMODE_STENCIL_PLAN
 
 }  // namespace perimode

@@ -20,10 +20,15 @@ struct BondRef {
   bool operator==(const BondRef&) const = default;
 };
 
+/// A bond as seen from the end that names it. Cost O(1). @pre it is present.
+template <int Dim>
+[[nodiscard]] BondEnd<Dim> bond_end(const Body<Dim>& body, const BondRef& bond);
+
 /// Bonds as they break: each once, by its lower end. Where walls mirror the body, a bond to a ghost has an
-/// image, the bond of the ghost's particle to the ghost of this one, that is the same bond of the whole body:
-/// both are listed, the two next to each other. Sorted by particle and slot of the first of each. Bonds that
-/// are not alive are left out. Cost O(bonds log bonds).
+/// image, the bond of the ghost's particle to the ghost of this one, that breaks with it (beyond an
+/// antimirror wall it is compressed as much as the bond is stretched): both are listed, the two next to each
+/// other. Ghosts that stand still have none. Sorted by particle and slot of the first of each. Bonds that are
+/// not alive are left out. Cost O(bonds log bonds).
 template <int Dim>
 [[nodiscard]] std::vector<BondRef> with_images(const Body<Dim>& body, std::vector<BondRef> bonds);
 
@@ -35,13 +40,14 @@ template <int Dim>
 [[nodiscard]] SparseColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds);
 
 /// K of a body whose bonds break, in one of its forms, which follows in place: the stencil by alive bits and
-/// the runs of the particles concerned, the bond form by zeros, blocks by summing the rows concerned anew.
-/// Equal to the operator made of the body anew, to the last bit (the stencil: to round-off, where particles
-/// change their class). `body` has to outlive it.
+/// the runs of the particles concerned, the bond form by closing up their ends, blocks by summing their rows
+/// anew. Equal to the operator made of the body anew, to the last bit (the stencil: to round-off, since more
+/// particles may count as partial). `body` has to outlive it.
 template <int Dim>
 class BreakableStiffness {
  public:
-  BreakableStiffness(Body<Dim>& body, StiffnessForm form = StiffnessForm::automatic);
+  /// Throws invalid_input for the stencil of a cloud.
+  explicit BreakableStiffness(Body<Dim>& body, StiffnessForm form = StiffnessForm::automatic);
   ~BreakableStiffness();
   BreakableStiffness(BreakableStiffness&&) noexcept;
   BreakableStiffness& operator=(BreakableStiffness&&) noexcept;
@@ -50,9 +56,11 @@ class BreakableStiffness {
 
   /// R K T as it is at every product; valid while this object lives (it may move).
   [[nodiscard]] LinearOperator product() const;
+  /// The same piece by piece, in pieces that stay as they are.
   [[nodiscard]] RowProduct rows() const;
 
-  /// Clears the bonds in the body, at both ends, and takes them out of the form. Cost O(family) per bond.
+  /// Clears the bonds in the body, at both ends, and takes them out of the form; those that are not alive are
+  /// left alone. Cost O(family) per bond; the stencil moves its list of runs (a few per row of cells).
   void break_bonds(std::span<const BondRef> bonds);
 
  private:

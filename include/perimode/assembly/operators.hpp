@@ -18,9 +18,9 @@ enum class StiffnessForm { automatic, stencil, bonds, blocks };
 
 /// R K T over the free dofs (boundary_map.hpp) in one of its forms; all agree to round-off:
 ///   (K u)_i = sum_b k_b n (n . (u_i - u_j)),  docs/theory/01_bond.md.
-/// The stencil reads the body's bonds at every product, so the body has to outlive the operator, and a bond
-/// broken in the body needs a new operator. Throws invalid_input for the stencil of a cloud.
-/// Memory: operator_bytes.
+/// The stencil reads the body's bonds at every product, so the body has to outlive the operator. Where bonds
+/// break, BreakableStiffness (breakable_stiffness.hpp) is K that follows. Throws invalid_input for the
+/// stencil of a cloud. Memory: operator_bytes.
 template <int Dim>
 [[nodiscard]] LinearOperator stiffness_operator(const Body<Dim>& body,
                                                 StiffnessForm form = StiffnessForm::automatic);
