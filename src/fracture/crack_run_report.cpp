@@ -82,6 +82,7 @@ QuasistaticResult CrackRun<Dim>::finish(QuasistaticStatus status, std::string me
   if (!message.empty()) result_.message = std::move(message);
   result_.ways = equilibrium_->totals();
   result_.factor_seconds = equilibrium_->solver().factor_seconds();
+  result_.crack_length = options_->area.initial + broken_area_;
   result_.displacement = ledger_.state().displacement;
   return std::move(result_);
 }

@@ -152,7 +152,8 @@ struct QuasistaticResult {
   double peak_load = 0.0;   ///< the largest one (steps: largest force)
   std::int64_t peak_event = 0;
   Offset broken_bonds = 0;
-  QuasistaticRow last;  ///< energies at the last row
+  double crack_length = 0.0;  ///< m (3D: area, m2; 1D: number of cuts), at the end
+  QuasistaticRow last;        ///< energies at the last row
   std::vector<LoosePiece> loose;
   std::array<WayTotals, solve_ways> ways = {};
   double worst_residual = 0.0;
