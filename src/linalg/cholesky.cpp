@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "cholmod_workspace.hpp"
 #include "perimode/linalg/factor.hpp"
 #include "supernodal_solve.hpp"
+#include "supernodal_update.hpp"
 
 namespace perimode {
 namespace {
@@ -30,13 +32,14 @@ struct UpperTriangle {
   }
 
   /// The values of matrix - sigma diag(mass).
-  void fill(const Csr& matrix, double sigma, const Eigen::VectorXd& mass) {
+  void fill(const Csr& matrix, double sigma, const Eigen::VectorXd& mass, std::vector<double>& diagonal) {
     value.resize(row.size());
+    diagonal.assign(matrix.rows, 0.0);
     for (Index i = 0; i < matrix.rows; ++i) {
       const Offset shift = start[i] - matrix.row_start[i];
       for (int e = start[i]; e < start[i + 1]; ++e) {
         value[e] = matrix.value[e - shift];
-        if (row[e] == i) value[e] -= sigma * mass[i];
+        if (row[e] == i) diagonal[i] = value[e] -= sigma * mass[i];
       }
     }
   }
@@ -107,6 +110,28 @@ FillEstimate estimate(const cholmod_common& common, double matrix_entries, doubl
   return fill;
 }
 
+/// The dof of the first pivot that is not positive, or else of the smallest one.
+Index first_bad_pivot(const cholmod_factor& factor) {
+  const auto* order = static_cast<const int*>(factor.Perm);
+  if (factor.minor < factor.n) return order[factor.minor];
+  const auto* super = static_cast<const int*>(factor.super);
+  const auto* row_start = static_cast<const int*>(factor.pi);
+  const auto* value_start = static_cast<const int*>(factor.px);
+  const auto* value = static_cast<const double*>(factor.x);
+  Index found = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t s = 0; s < factor.nsuper; ++s) {
+    const std::ptrdiff_t rows = row_start[s + 1] - row_start[s];
+    for (std::ptrdiff_t j = 0; j < super[s + 1] - super[s]; ++j) {
+      const double pivot = value[value_start[s] + j * rows + j];
+      if (!(pivot < least)) continue;
+      least = pivot;
+      found = order[super[s] + j];
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 FillEstimate predict_fill(const Csr& pattern, std::span<const Index> node_of_dof) {
@@ -139,7 +164,16 @@ struct CholeskyFactor::Handle {
   UpperTriangle upper;
   cholmod_factor* factor;
   FillEstimate fill;
-  std::vector<double> work;  // of solve()
+  Index failed_dof = -1;
+  std::vector<double> work;           // of solve()
+  std::optional<SupernodeTree> tree;  // of update() and solve_sparse(), made by the first
+  std::vector<double> diagonal;       // of the matrix last factored
+  std::vector<double> terms;          // of update()
+
+  const SupernodeTree& supernodes() {
+    if (!tree) tree = supernode_tree(*factor);
+    return *tree;
+  }
 };
 
 CholeskyFactor::CholeskyFactor(const Csr& pattern, std::span<const Index> node_of_dof)
@@ -157,7 +191,7 @@ CholeskyFactor::CholeskyFactor(CholeskyFactor&&) noexcept = default;
 CholeskyFactor& CholeskyFactor::operator=(CholeskyFactor&&) noexcept = default;
 
 FactorStatus CholeskyFactor::factorize(const Csr& matrix, double sigma, const Eigen::VectorXd& mass) {
-  handle_->upper.fill(matrix, sigma, mass);
+  handle_->upper.fill(matrix, sigma, mass, handle_->diagonal);
   cholmod_sparse view = handle_->upper.view();
   cholmod_common* common = handle_->workspace.get();
   const SerialLoops serial;
@@ -166,8 +200,26 @@ FactorStatus CholeskyFactor::factorize(const Csr& matrix, double sigma, const Ei
   constexpr double smallest_pivot = 1e-13;
   const bool positive = common->status == CHOLMOD_OK && handle_->factor->minor == handle_->factor->n &&
                         cholmod_rcond(handle_->factor, common) > smallest_pivot;
+  if (!positive) handle_->failed_dof = first_bad_pivot(*handle_->factor);
   return positive ? FactorStatus::done : FactorStatus::not_positive_definite;
 }
+
+UpdateResult CholeskyFactor::update(const SparseColumns& added, const SparseColumns& removed) {
+  return supernodal_update(*handle_->factor, handle_->supernodes(), added, removed, handle_->diagonal,
+                           handle_->terms);
+}
+
+Eigen::VectorXd CholeskyFactor::solve_sparse(std::span<const Index> rows, const Eigen::VectorXd& b) const {
+  const SupernodeTree& tree = handle_->supernodes();
+  std::vector<int> columns;
+  columns.reserve(rows.size());
+  for (const Index row : rows) columns.push_back(tree.column_of_dof[row]);
+  Eigen::MatrixXd x;
+  supernodal_solve(*handle_->factor, paths_to_root(tree, columns), b, x, handle_->work);
+  return x;
+}
+
+Index CholeskyFactor::failed_dof() const { return handle_->failed_dof; }
 
 Eigen::MatrixXd CholeskyFactor::solve(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
   Eigen::MatrixXd x;

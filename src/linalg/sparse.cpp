@@ -29,7 +29,7 @@ void multiply_block_rows(const BlockCsr& matrix, const double* x, double* y) {
 
 }  // namespace
 
-Csr scalar_csr(const BlockCsr& matrix, std::span<const Index> dof_number) {
+Csr scalar_csr(const BlockCsr& matrix, std::span<const Index> dof_number, Zeros zeros) {
   const int b = matrix.block;
   Csr out;
   for (const Index number : dof_number) out.rows = std::max(out.rows, number + 1);
@@ -43,7 +43,8 @@ Csr scalar_csr(const BlockCsr& matrix, std::span<const Index> dof_number) {
       for (int c = 0; c < b; ++c) {
         const Index other = matrix.column[e] * b + c;
         const double a = matrix.value[(e * b + r) * b + c];
-        if (dof_number[other] >= 0 && (a != 0.0 || other == dof)) keep(dof_number[other], a);
+        if (dof_number[other] >= 0 && (a != 0.0 || other == dof || zeros == Zeros::keep))
+          keep(dof_number[other], a);
       }
   };
 

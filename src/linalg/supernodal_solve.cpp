@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <numeric>
 
 #include "vector_kernels.hpp"
 
@@ -102,8 +103,9 @@ PERIMODE_EVERY_PROCESSOR void backward_8(const Supernode& node, double* y) { bac
 
 /// One group of at most Width vectors; x and y are interleaved work arrays.
 template <int Width>
-void solve_group(const cholmod_factor& factor, const Eigen::Ref<const Eigen::MatrixXd>& b,
-                 Eigen::MatrixXd& out, Eigen::Index first, double* x, double* y) {
+void solve_group(const cholmod_factor& factor, std::span<const int> forward,
+                 const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& out, Eigen::Index first,
+                 double* x, double* y) {
   const auto n = static_cast<std::ptrdiff_t>(factor.n);
   const auto nodes = static_cast<std::ptrdiff_t>(factor.nsuper);
   const auto* super = static_cast<const int*>(factor.super);
@@ -119,7 +121,7 @@ void solve_group(const cholmod_factor& factor, const Eigen::Ref<const Eigen::Mat
   const auto node_at = [&](std::ptrdiff_t s) {
     return Supernode{row_start[s + 1] - row_start[s], super[s + 1] - super[s], value + value_start[s]};
   };
-  for (std::ptrdiff_t s = 0; s < nodes; ++s) {
+  for (const int s : forward) {
     const Supernode node = node_at(s);
     const int* below = row + row_start[s];
     double* own = x + static_cast<std::ptrdiff_t>(super[s]) * Width;
@@ -147,6 +149,14 @@ void solve_group(const cholmod_factor& factor, const Eigen::Ref<const Eigen::Mat
 
 void supernodal_solve(const cholmod_factor& factor, const Eigen::Ref<const Eigen::MatrixXd>& b,
                       Eigen::MatrixXd& x, std::vector<double>& work) {
+  std::vector<int> all(factor.nsuper);
+  std::iota(all.begin(), all.end(), 0);
+  supernodal_solve(factor, all, b, x, work);
+}
+
+void supernodal_solve(const cholmod_factor& factor, std::span<const int> forward,
+                      const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& x,
+                      std::vector<double>& work) {
   constexpr int wide = 8, narrow = 4;
   x.resize(b.rows(), b.cols());
   constexpr std::size_t alignment = wide * sizeof(double);
@@ -158,9 +168,9 @@ void supernodal_solve(const cholmod_factor& factor, const Eigen::Ref<const Eigen
   for (Eigen::Index first = 0; first < b.cols();) {
     const bool take_wide = b.cols() - first > narrow;
     if (take_wide)
-      solve_group<wide>(factor, b, x, first, interleaved, front);
+      solve_group<wide>(factor, forward, b, x, first, interleaved, front);
     else
-      solve_group<narrow>(factor, b, x, first, interleaved, front);
+      solve_group<narrow>(factor, forward, b, x, first, interleaved, front);
     first += take_wide ? wide : narrow;
   }
 }

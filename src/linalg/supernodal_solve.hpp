@@ -4,6 +4,7 @@
 #include <cholmod.h>
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 namespace perimode {
@@ -14,5 +15,11 @@ namespace perimode {
 /// with few right-hand sides spends its time copying. `work` grows to what is needed.
 void supernodal_solve(const cholmod_factor& factor, const Eigen::Ref<const Eigen::MatrixXd>& b,
                       Eigen::MatrixXd& x, std::vector<double>& work);
+
+/// The same for a b whose rows are zero but in the supernodes `forward` (ascending, closed towards the
+/// roots).
+void supernodal_solve(const cholmod_factor& factor, std::span<const int> forward,
+                      const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& x,
+                      std::vector<double>& work);
 
 }  // namespace perimode

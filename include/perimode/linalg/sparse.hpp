@@ -44,8 +44,11 @@ struct SparseColumns {
 
 /// The scalar matrix left when rows and columns of eliminated dofs are struck out. Dof
 /// block*i + a becomes number dof_number[block*i + a]; -1 strikes it out; numbers ascend.
-/// Entries that are exactly zero outside the diagonal are dropped. Cost O(nonzeros).
-[[nodiscard]] Csr scalar_csr(const BlockCsr& matrix, std::span<const Index> dof_number);
+/// Entries that are exactly zero outside the diagonal are dropped, or kept where the matrix will change:
+/// bonds along the axes and at right angles cancel in a lattice until one of them breaks. Cost O(nonzeros).
+enum class Zeros { drop, keep };
+[[nodiscard]] Csr scalar_csr(const BlockCsr& matrix, std::span<const Index> dof_number,
+                             Zeros zeros = Zeros::drop);
 
 /// y = A x, rows in parallel, the same bits for any thread count.
 void multiply(const BlockCsr& matrix, std::span<const double> x, std::span<double> y);

@@ -57,7 +57,8 @@ struct WayTotals {
 class UpdatedSolver {
  public:
   /// With a factor, made at once. `a` is the product with the matrix as it is at every solve; `matrix` its
-  /// pattern and values now. Throws Error(environment) as CholeskyFactor. A matrix that is not positive
+  /// values now and an entry, if zero, for all that will change (scalar_csr with Zeros::keep). Throws
+  /// Error(environment) as CholeskyFactor, invalid_input for sizes that differ. A matrix that is not positive
   /// definite shows in the first solve.
   UpdatedSolver(LinearOperator a, Csr matrix, std::vector<Index> order, const UpdatedSolverOptions& options);
   /// Without one: `preconditioner` makes that of the matrix as it is (again where the iterations have
@@ -71,15 +72,15 @@ class UpdatedSolver {
   UpdatedSolver& operator=(const UpdatedSolver&) = delete;
 
   /// A became A + sum_a a a^T - sum_r r r^T; `a` above shows it already. Changes collect until the next
-  /// solve.
+  /// solve. Throws invalid_input for columns of another length, or beyond the entries of the matrix.
   void change(const SparseColumns& added, const SparseColumns& removed);
 
   /// A X = B, all columns; X comes in as the guess (last solution). After a singular outcome a change that
   /// makes A definite again has to come before the next solve, which then makes a fresh factor.
   [[nodiscard]] SolveOutcome solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& x);
 
-  /// The next solve makes a fresh factor (or preconditioner): two solvers that came here by different ways
-  /// then give the same bits.
+  /// The next solve makes a fresh factor (or preconditioner) and takes no guess: two solvers whose matrices
+  /// went through the same changes in the same order then give the same bits, whatever they solved between.
   void refresh();
 
   [[nodiscard]] const std::array<WayTotals, solve_ways>& totals() const;  ///< by SolveWay
