@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "perimode/assembly/body.hpp"
+#include "perimode/assembly/precracks.hpp"
 #include "perimode/geometry/mesh.hpp"
 
 namespace perimode {
@@ -72,43 +72,6 @@ Particles<Dim> make_particles(const Model& model) {
     for (Index i : inside) particles.block[i] = number;
   }
   return particles;
-}
-
-template <int Dim>
-std::vector<Crack<Dim>> make_cracks(const Model& model) {
-  std::vector<Crack<Dim>> cracks;
-  for (const auto& spec : model.precracks) {
-    Crack<Dim> crack;
-    for (const auto& corner : spec.points)
-      crack.corner.push_back(to_point<Dim>(corner, "a pre-crack corner", spec.where));
-    const std::size_t least = Dim;  // a point, a segment, a polygon
-    if (crack.corner.size() < least || (Dim < 3 && crack.corner.size() > least)) {
-      invalid_input({fmt::format("{} corner{} of a pre-crack", Dim == 3 ? "at least 3" : std::to_string(Dim),
-                                 Dim == 1 ? "" : "s"),
-                     fmt::format("{}", crack.corner.size()), "see the case reference", spec.where});
-    }
-    if constexpr (Dim > 1) {
-      for (std::size_t k = 0; k < crack.corner.size(); ++k) {
-        if (crack.corner[k] == crack.corner[(k + 1) % crack.corner.size()]) {
-          invalid_input(
-              {"a pre-crack of positive length", "two equal corners", "move one of them", spec.where});
-        }
-      }
-    }
-    if constexpr (Dim == 3) {
-      const Point<3> normal =
-          (crack.corner[1] - crack.corner[0]).cross(crack.corner[2] - crack.corner[0]).normalized();
-      for (const auto& c : crack.corner) {
-        if (!(std::abs(normal.dot(c - crack.corner[0])) <=
-              1e-9 * (crack.corner[1] - crack.corner[0]).norm())) {
-          invalid_input({"a plane polygon, its first three corners not on a line", "corners out of plane",
-                         "split it into plane pieces", spec.where});
-        }
-      }
-    }
-    cracks.push_back(crack);
-  }
-  return cracks;
 }
 
 template <int Dim>
@@ -260,7 +223,7 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
     }
   }
 
-  const auto cracks = make_cracks<Dim>(model);
+  const auto cracks = precracks<Dim>(model);
   const double spacing = typical_spacing(body.particles, body.section);
   set_kernels(body.constants, body, blocks, continuum);
   if (model.calibration == Calibration::discrete) {

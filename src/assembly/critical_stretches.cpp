@@ -9,11 +9,8 @@
 
 namespace perimode {
 
-namespace {
-
-/// Mean horizon of the bonds of a block, m.
 template <int Dim>
-double horizon_of(const Body<Dim>& body, int block) {
+double mean_horizon(const Body<Dim>& body, int block) {
   if (const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds)) return grid->family.horizon;
   double sum = 0.0;
   Offset ends = 0;
@@ -26,8 +23,6 @@ double horizon_of(const Body<Dim>& body, int block) {
   }
   return ends > 0 ? sum / static_cast<double>(ends) : 0.0;
 }
-
-}  // namespace
 
 template <int Dim>
 std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body) {
@@ -44,7 +39,7 @@ std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body
             {"critical_stretch > 0", fmt::format("{}", s0), "leave it out: bonds do not break", m.where});
       }
     } else if (m.fracture_energy) {
-      const double horizon = horizon_of(body, static_cast<int>(block));
+      const double horizon = mean_horizon(body, static_cast<int>(block));
       try {
         if (horizon > 0.0)
           s0 = critical_stretch(m.micromodulus, m.youngs_modulus, *m.fracture_energy, horizon, continuum);
@@ -57,6 +52,9 @@ std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body
   return result;
 }
 
+template double mean_horizon<1>(const Body<1>&, int);
+template double mean_horizon<2>(const Body<2>&, int);
+template double mean_horizon<3>(const Body<3>&, int);
 template std::vector<double> critical_stretches<1>(const Model&, const Body<1>&);
 template std::vector<double> critical_stretches<2>(const Model&, const Body<2>&);
 template std::vector<double> critical_stretches<3>(const Model&, const Body<3>&);

@@ -1,62 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 
 #include "perimode/bonds/bonds.hpp"
+#include "perimode/bonds/crossing.hpp"
 
 namespace perimode {
 
 namespace {
-
-template <int Dim>
-bool same_place(const Crack<Dim>& a, const Crack<Dim>& b, double tolerance) {
-  return a.corner.size() == b.corner.size() &&
-         std::all_of(a.corner.begin(), a.corner.end(), [&](const Point<Dim>& p) {
-           return std::any_of(b.corner.begin(), b.corner.end(),
-                              [&](const Point<Dim>& q) { return (p - q).norm() <= tolerance; });
-         });
-}
-
-template <int Dim>
-bool near_box(const Crack<Dim>& crack, const Point<Dim>& low, const Point<Dim>& high) {
-  Point<Dim> a = crack.corner[0];
-  Point<Dim> b = crack.corner[0];
-  for (const auto& c : crack.corner) {
-    a = a.cwiseMin(c);
-    b = b.cwiseMax(c);
-  }
-  return ((b - low).array() >= 0.0).all() && ((high - a).array() >= 0.0).all();
-}
-
-/// The cracks with all their images in walls and periods that bonds of the grid can meet.
-template <int Dim>
-std::vector<Crack<Dim>> with_images(const GridBonds<Dim>& bonds, const Grid<Dim>& grid,
-                                    std::vector<Crack<Dim>> cracks, double tolerance) {
-  const double reach = (bonds.reach + 1) * grid.spacing;
-  const Point<Dim> low = grid.lower.array() - reach;
-  const Point<Dim> high = grid.upper().array() + reach;
-  const auto add = [&](const Crack<Dim>& image) {
-    const bool known = std::any_of(cracks.begin(), cracks.end(),
-                                   [&](const Crack<Dim>& c) { return same_place(c, image, tolerance); });
-    if (!known && near_box(image, low, high)) cracks.push_back(image);
-  };
-  for (std::size_t k = 0; k < cracks.size(); ++k) {  // grows: images of images
-    for (int a = 0; a < Dim; ++a) {
-      const double period = grid.cells[a] * grid.spacing;
-      for (int side = 0; side < 2; ++side) {
-        const Crack<Dim> original = cracks[k];
-        if (bonds.beyond[2 * a + side] == Beyond::ghosts) {
-          add(reflected(original, a, grid.lower[a] + side * period));
-        } else if (bonds.beyond[2 * a + side] == Beyond::periodic_image) {
-          Crack<Dim> image = original;
-          for (auto& c : image.corner) c[a] += side == 0 ? -period : period;
-          add(image);
-        }
-      }
-    }
-  }
-  return cracks;
-}
 
 template <int Dim>
 void clear_bit(GridBonds<Dim>& bonds, Index i, Offset slot) {
@@ -104,30 +54,11 @@ template <int Dim>
 Offset cut_bonds(Bonds<Dim>& bonds, const Particles<Dim>& particles, const std::vector<Crack<Dim>>& cracks,
                  double spacing) {
   if (cracks.empty()) return 0;
-  const double tolerance = 1e-9 * spacing;
   const Offset before = count_bonds(bonds, particles.count());
-  std::vector<Crack<Dim>> all = cracks;
-  if (const auto* grid = std::get_if<GridBonds<Dim>>(&bonds)) {
-    all = with_images(*grid, *particles.grid, std::move(all), tolerance);
-  }
-  join(all, tolerance);
-  // Each end decides for itself; ties are decided by the tolerance, far above round-off, so both agree.
+  const auto ends = crossing_ends(bonds, particles, cracks, spacing);
   std::visit(
       [&](auto& b) {
-        for (Index i = 0; i < particles.count(); ++i) {
-          const Point<Dim>& x = particles.position[i];
-          for_each_bond(b, i, Which::alive, [&](const BondEnd<Dim>& end) {
-            const Point<Dim> y = x + end.xi;
-            for (const auto& crack : all) {
-              const Point<Dim> low = x.cwiseMin(y).array() - tolerance;
-              const Point<Dim> high = x.cwiseMax(y).array() + tolerance;
-              if (near_box(crack, low, high) && crosses(crack, x, y, tolerance)) {
-                clear_bit(b, i, end.slot);
-                break;
-              }
-            }
-          });
-        }
+        for (const CrossingEnd& end : ends) clear_bit(b, end.particle, end.slot);
       },
       bonds);
   return before - count_bonds(bonds, particles.count());

@@ -14,4 +14,9 @@ namespace perimode {
 template <int Dim>
 [[nodiscard]] std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body);
 
+/// Horizon that a fracture energy of a block is taken at: that of a grid, on a cloud the mean over the
+/// block's bond ends, m; 0 without bonds. Cost O(bond ends) on a cloud.
+template <int Dim>
+[[nodiscard]] double mean_horizon(const Body<Dim>& body, int block);
+
 }  // namespace perimode

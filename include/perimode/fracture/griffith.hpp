@@ -23,18 +23,25 @@ struct GriffithLoad {
   Offset cut = 0;                    ///< bonds it cuts
 };
 
-/// The first pre-crack made longer, straight on at its `to` end (3D: its far edge), by `spacings` spacings of
-/// the grid (clouds: mean spacing (V/section)^(1/Dim)): what it adds, as a crack joined to it. Throws
-/// invalid_input without a pre-crack.
+/// The first pre-crack made longer by `spacings` spacings of the grid (clouds: mean spacing
+/// (V/section)^(1/Dim)), straight on at its `to` end; in 3D at its far edge, that whose middle lies furthest
+/// from the line of its first edge, in its plane and at right angles to that edge: what it adds, as a crack
+/// joined to it. Throws invalid_input without a pre-crack and in 1D, where it has no length.
 template <int Dim>
 [[nodiscard]] Crack<Dim> crack_increment(const Model& model, const Body<Dim>& body, double spacings = 1.0);
 
-/// Bonds alive that cross a crack, images included (with_images). Cost O(bonds).
+/// Length (2D, m) or area (3D, m2) of a crack; 1 in 1D.
+template <int Dim>
+[[nodiscard]] double extent(const Crack<Dim>& crack);
+
+/// Bonds alive that cross a crack, images included (with_images); what is marked as joined is cut as well.
+/// Cost O(particles + bonds near the crack).
 template <int Dim>
 [[nodiscard]] std::vector<BondRef> crossing_bonds(const Body<Dim>& body, const Crack<Dim>& crack);
 
 /// Fracture energy of the material of the body's first breakable block, J/m2: its own, or that of its
-/// critical stretch (material/critical_stretch.hpp). Throws invalid_input where it has neither.
+/// critical stretch at the horizon (material/critical_stretch.hpp, assembly/critical_stretches.hpp). Throws
+/// invalid_input where no block has either.
 template <int Dim>
 [[nodiscard]] double fracture_energy_of(const Model& model, const Body<Dim>& body);
 
