@@ -80,6 +80,8 @@ nlohmann::ordered_json transient_summary(const Case& input, const Body<Dim>& bod
                              {"load", result.truncation.load}};
   }
   summary["iterations"] = result.iterations;
+  if (result.repeats.all > 0)
+    summary["repeated_solutions"] = {{"all", result.repeats.all}, {"most", result.repeats.most}};
   return summary;
 }
 
@@ -95,7 +97,8 @@ TransientResult run_steps(Body<Dim>& body, const Case& input, const TransientOpt
   }
 }
 
-/// Round-off for linear, symmetric bodies, of the order of the step squared where bonds turn or break.
+/// Round-off for linear, symmetric bodies, of the order of the step squared where bonds turn, or break in
+/// explicit steps.
 void warn_of_imbalance(const TransientResult& result, Console& console) {
   const bool exact = result.plan.conserves;
   const double tolerated = exact ? 1e-6 : 0.1;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "dynamics/given_forces.hpp"
 #include "dynamics/instability.hpp"
 #include "dynamics/transient_plan.hpp"
 #include "perimode/assembly/assemble.hpp"
@@ -88,19 +89,6 @@ std::vector<double> damping_rates(const Body<Dim>& body, const TransientOptions&
   return rate;
 }
 
-/// The free part of a force on all particle dofs, without its zeros.
-template <int Dim>
-ForceTerm free_term(const BoundaryMap<Dim>& boundary, const Eigen::VectorXd& all, double sign) {
-  ForceTerm term;
-  for (Eigen::Index d = 0; d < all.size(); ++d) {
-    const Index number = boundary.free_number[static_cast<std::size_t>(d)];
-    if (number < 0 || all[d] == 0.0) continue;
-    term.dof.push_back(number);
-    term.value.push_back(sign * all[d]);
-  }
-  return term;
-}
-
 /// Loads that vary alike make one term.
 template <int Dim>
 void add_loads(const Body<Dim>& body, const std::vector<Load>& loads, Motion& motion) {
@@ -117,37 +105,6 @@ void add_loads(const Body<Dim>& body, const std::vector<Load>& loads, Motion& mo
     ForceTerm term = free_term(body.boundary, load_vector(body.particles, alike), 1.0);
     term.time = loads[first].time;
     if (!term.dof.empty()) motion.force.push_back(std::move(term));
-  }
-}
-
-/// p_k = -R K g_k of the given displacements of every function of time, and their own stiffness.
-template <int Dim>
-void add_given_motion(const Body<Dim>& body, Motion& motion) {
-  std::vector<Eigen::VectorXd> given;
-  std::vector<Eigen::VectorXd> force;  // K g_k on all particle dofs
-  for (std::size_t k = 0; k < body.boundary.time.size(); ++k) {
-    const BoundaryMap<Dim> map = with_only(body.boundary, static_cast<int>(k));
-    const auto zero = [](double v) { return v == 0.0; };
-    if (std::all_of(map.given.begin(), map.given.end(), zero) &&
-        std::all_of(map.value.begin(), map.value.end(), zero)) {
-      continue;
-    }
-    given.emplace_back(
-        Eigen::Map<const Eigen::VectorXd>(map.given.data(), static_cast<Eigen::Index>(map.given.size())));
-    force.push_back(internal_force(body, map, given.back()));
-    ForceTerm term = free_term(body.boundary, force.back(), -1.0);
-    term.time = body.boundary.time[k];
-    term.motion = true;
-    motion.force.push_back(std::move(term));
-  }
-  const auto n = static_cast<Eigen::Index>(given.size());
-  motion.motion_stiffness.resize(n, n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    for (Eigen::Index l = 0; l < n; ++l) {
-      const auto a = static_cast<std::size_t>(k);
-      const auto b = static_cast<std::size_t>(l);
-      motion.motion_stiffness(k, l) = 0.5 * (given[a].dot(force[b]) + given[b].dot(force[a]));
-    }
   }
 }
 
@@ -181,7 +138,7 @@ Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
   }
   motion.stiffness_damping = options.rayleigh_stiffness;
   add_loads(body, options.loads, motion);
-  add_given_motion(body, motion);
+  set_given_forces(body, given_shapes(body), motion);
   return motion;
 }
 

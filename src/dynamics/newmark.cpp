@@ -9,6 +9,7 @@
 #include "dynamics/saved_state.hpp"
 #include "linalg/fused.hpp"
 #include "perimode/core/error.hpp"
+#include "perimode/dynamics/step_breaking.hpp"
 
 namespace perimode {
 
@@ -41,8 +42,10 @@ NewmarkOptions checked(NewmarkOptions o) {
 /// F', w = q + stiffness_damping v.
 class Newmark final : public Integrator {
  public:
-  Newmark(const Motion& motion, double dt, const NewmarkOptions& options, const ShiftedSolver& solver)
+  Newmark(const Motion& motion, double dt, const NewmarkOptions& options, const ShiftedSolver& solver,
+          StepBreaking* breaking)
       : motion_(&motion),
+        breaking_(breaking),
         dt_(dt),
         o_(checked(options)),
         n_(static_cast<Index>(motion.mass.size())),
@@ -63,29 +66,32 @@ class Newmark final : public Integrator {
     q_ = q;
     v_ = v;
     dq_ = dv_ = Eigen::VectorXd::Zero(n_);
-    a_ = -multiply(stiffness_, Eigen::VectorXd(q + motion_->stiffness_damping * v));
     h_ = values_at(motion_->force, 0.0);
     dh_ = Eigen::VectorXd::Zero(h_.size());
+    broken_ = {};
+    if (breaking_ != nullptr && breaking_->break_beyond(q_, h_)) {
+      broken_.add(0.5 * breaking_->stiffness().dot(breaking_->elongation(q_, h_).cwiseAbs2()));
+      breaking_->settle();
+    }
+    a_ = -multiply(stiffness_, Eigen::VectorXd(q + motion_->stiffness_damping * v));
     add_forces(h_, a_);
     a_.array() /= motion_->mass.array();
     if (rate_of(*motion_) != nullptr) a_.array() -= motion_->damping_rate.array() * v.array();
     ledger_ = {};
     update_energies();
-    ledger_.initial = energies_.kinetic + energies_.strain;
+    ledger_.initial = energies_.kinetic + energies_.strain + energies_.broken;
     energies_.initial = ledger_.initial;
   }
 
   void advance(bool with_energies) override {
     const Eigen::VectorXd next = values_at(motion_->force, static_cast<double>(step_ + 1) * dt_);
     const Eigen::VectorXd dh = next - h_;
-    predict();
-    // Solved for what the predictor lacks, reach a_{n+1}, so that rounding is that of the acceleration.
-    stiffness_.apply(x_.data(), product_.data());
-    for_each_chunk(n_, [&](Index first, Index count) {
-      for (Index i = first; i < first + count; ++i) rhs_[i] -= product_[i];
-    });
-    add_forces(next + o_.alpha * dh, rhs_);
-    solve_(rhs_, guess_, x_);
+    solve_step(next, dh);
+    if (breaking_ != nullptr) {
+      while (breaking_->break_beyond(end_of_step(), next)) solve_step(next, dh);
+      release(dh);
+      breaking_->settle();
+    }
     correct(dh);
     h_ = next;
     dh_ = dh;
@@ -97,6 +103,9 @@ class Newmark final : public Integrator {
   [[nodiscard]] const Eigen::VectorXd& displacement() const override { return q_; }
   [[nodiscard]] Eigen::VectorXd velocity() const override { return v_; }
   [[nodiscard]] Energies energies() const override { return energies_; }
+  [[nodiscard]] std::int64_t broken_bonds() const override {
+    return breaking_ == nullptr ? 0 : breaking_->broken();
+  }
 
   [[nodiscard]] IntegratorState save() const override {
     IntegratorState state;
@@ -109,6 +118,10 @@ class Newmark final : public Integrator {
     perimode::save("h", h_, state);
     perimode::save("dh", dh_, state);
     perimode::save(ledger_, dt_, state);
+    if (breaking_ != nullptr) {
+      breaking_->save(state);
+      state.numbers["broken energy"] = {broken_.sum, broken_.lost};
+    }
     return state;
   }
 
@@ -122,6 +135,11 @@ class Newmark final : public Integrator {
     h_ = saved(state, "h", terms);
     dh_ = saved(state, "dh", terms);
     ledger_ = saved_ledger(state, dt_);
+    if (breaking_ != nullptr) {
+      const std::vector<double>& broken = saved_numbers(state, "broken energy", 2);
+      breaking_->restore(state);
+      broken_ = {broken[0], broken[1]};
+    }
     step_ = state.step;
     update_energies();
   }
@@ -164,6 +182,42 @@ class Newmark final : public Integrator {
         guess_[i] = reach_ * a_[i];
       }
     });
+  }
+
+  /// reach a_{n+1} for the bonds as they are. Solved for what the predictor lacks, so that rounding is that
+  /// of the acceleration.
+  void solve_step(const Eigen::VectorXd& next, const Eigen::VectorXd& dh) {
+    predict();
+    stiffness_.apply(x_.data(), product_.data());
+    for_each_chunk(n_, [&](Index first, Index count) {
+      for (Index i = first; i < first + count; ++i) rhs_[i] -= product_[i];
+    });
+    add_forces(next + o_.alpha * dh, rhs_);
+    solve_(rhs_, guess_, x_);
+  }
+
+  /// q_{n+1} of the solution x.
+  [[nodiscard]] Eigen::VectorXd end_of_step() const {
+    const double reach = o_.beta * dt_ * dt_ / reach_;
+    return Eigen::VectorXd::NullaryExpr(
+        n_, [&](Eigen::Index i) { return q_part(static_cast<Index>(i)) + reach * x_[i]; });
+  }
+
+  /// What the bonds that broke in this step held at its start, and did with the force they had there.
+  void release(const Eigen::VectorXd& dh) {
+    const Eigen::VectorXd& k = breaking_->stiffness();
+    if (k.size() == 0) return;
+    const Eigen::VectorXd rest = Eigen::VectorXd::Zero(n_), still = Eigen::VectorXd::Zero(dh.size());
+    const Eigen::ArrayXd e = breaking_->elongation(q_, h_), before = breaking_->elongation(dq_, dh_);
+    const Eigen::ArrayXd de = breaking_->elongation(end_of_step() - q_, dh);
+    const Eigen::ArrayXd moved = breaking_->elongation(rest, dh);
+    const Eigen::ArrayXd pull = (1.0 - o_.gamma) * k.array() * (e + o_.alpha * before);
+    broken_.add((0.5 * k.array() * (e.square() + spring() * before.square()) + pull * de).sum());
+    ledger_.work.add((pull * moved).sum());
+    if (motion_->stiffness_damping == 0.0) return;
+    const Eigen::ArrayXd rate = breaking_->elongation(v_ + o_.alpha * dv_, still);
+    ledger_.damping.add(motion_->stiffness_damping * (1.0 - o_.gamma) *
+                        (k.array() * rate * (de - moved)).sum());
   }
 
   /// The state at the end of the step and what the step adds to the ledger.
@@ -231,9 +285,11 @@ class Newmark final : public Integrator {
     if (o_.alpha != 0.0)
       strain += spring() * (0.5 * stiffness_square(dq_) + given_energy(*motion_, projections(dq_), dh_));
     energies_ = ledger_.with(kinetic, strain);
+    energies_.broken = broken_.value();
   }
 
   const Motion* motion_;
+  StepBreaking* breaking_;  ///< or none
   double dt_;
   NewmarkOptions o_;
   Index n_;
@@ -246,14 +302,15 @@ class Newmark final : public Integrator {
   Eigen::VectorXd h_, dh_;   ///< of the force terms, now and of the last step
   Eigen::VectorXd x_, product_, rhs_, guess_;
   Ledger ledger_;
+  CompensatedSum broken_;  ///< energy of broken bonds, J
   Energies energies_;
 };
 
 }  // namespace
 
 std::unique_ptr<Integrator> newmark(const Motion& motion, double dt, const NewmarkOptions& options,
-                                    const ShiftedSolver& solver) {
-  return std::make_unique<Newmark>(motion, dt, options, solver);
+                                    const ShiftedSolver& solver, StepBreaking* breaking) {
+  return std::make_unique<Newmark>(motion, dt, options, solver, breaking);
 }
 
 }  // namespace perimode

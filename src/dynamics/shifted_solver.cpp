@@ -148,21 +148,30 @@ LinearOperator shifted(const LinearOperator& stiffness, const Eigen::VectorXd& s
 }
 
 template <int Dim>
-ShiftedSolve by_iterations(const Body<Dim>& body, const LinearOperator& stiffness,
-                           const Eigen::VectorXd& shift, double tolerance) {
+LinearOperator shifted_block_jacobi(const Body<Dim>& body, const Eigen::VectorXd& shift) {
   std::vector<double> blocks = diagonal_blocks(body);
   for (std::size_t d = 0; d < body.boundary.free_number.size(); ++d) {
     const Index number = body.boundary.free_number[d];
     if (number >= 0) blocks[d * Dim + d % Dim] += shift[number];
   }
-  // Where rounding of x alone leaves a larger residual, that is all there is to be had.
-  const double rounding =
-      8.0 * std::numeric_limits<double>::epsilon() * (1.0 + stiffness_bound(body) / shift.minCoeff());
-  return [a = shifted(stiffness, shift), jacobi = block_jacobi(blocks, Dim, body.boundary.free_number),
-          tolerance, rounding](const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Eigen::VectorXd& x) {
+  return block_jacobi(blocks, Dim, body.boundary.free_number);
+}
+
+/// `tolerance`, or where rounding of x alone leaves a larger residual, what there is to be had.
+template <int Dim>
+double reachable(const Body<Dim>& body, const Eigen::VectorXd& shift, double tolerance) {
+  return std::max(tolerance, 8.0 * std::numeric_limits<double>::epsilon() *
+                                 (1.0 + stiffness_bound(body) / shift.minCoeff()));
+}
+
+template <int Dim>
+ShiftedSolve by_iterations(const Body<Dim>& body, const LinearOperator& stiffness,
+                           const Eigen::VectorXd& shift, double tolerance) {
+  CgOptions options;
+  options.tolerance = reachable(body, shift, tolerance);
+  return [a = shifted(stiffness, shift), jacobi = shifted_block_jacobi(body, shift), options](
+             const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Eigen::VectorXd& x) {
     if (hopeless(b, x)) return 0;
-    CgOptions options;
-    options.tolerance = std::max(tolerance, rounding);
     CgResult cg = conjugate_gradients(a, b, jacobi, options, &guess);
     if (!cg.converged && !(cg.residual <= 10.0 * options.tolerance)) {
       throw Error(ErrorKind::solver_failure,
@@ -173,20 +182,52 @@ ShiftedSolve by_iterations(const Body<Dim>& body, const LinearOperator& stiffnes
   };
 }
 
+/// K + diag(d) of the bonds as they are.
+template <int Dim>
+Csr shifted_matrix(const Body<Dim>& body, const Eigen::VectorXd& shift) {
+  Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  for (Index i = 0; i < k.rows; ++i) {
+    const auto row = k.column.begin() + k.row_start[i];
+    const auto diagonal = std::lower_bound(row, k.column.begin() + k.row_start[i + 1], i);
+    k.value[static_cast<std::size_t>(diagonal - k.column.begin())] += shift[i];
+  }
+  return k;
+}
+
 }  // namespace
 
 template <int Dim>
 ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness, bool symmetric,
                                   ImplicitSolver which, double ratio, double tolerance,
                                   std::string& description) {
-  const Choice choice = choose(body, symmetric, which, ratio, tolerance);
-  description = name(choice, symmetric);
-  if (choice.solver == ImplicitSolver::cg) {
+  if (choose_shifted_solver(body, symmetric, which, ratio, tolerance, description) == ImplicitSolver::cg) {
     return [&body, stiffness, tolerance](const Eigen::VectorXd& shift) {
       return by_iterations(body, stiffness, shift, tolerance);
     };
   }
   return [&body, symmetric](const Eigen::VectorXd& shift) { return by_factor(body, symmetric, shift); };
+}
+
+template <int Dim>
+ImplicitSolver choose_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitSolver which,
+                                     double ratio, double tolerance, std::string& description) {
+  const Choice choice = choose(body, symmetric, which, ratio, tolerance);
+  description = name(choice, symmetric);
+  return choice.solver;
+}
+
+template <int Dim>
+UpdatedSolver updated_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness,
+                                     const Eigen::VectorXd& shift, bool factor, double tolerance) {
+  UpdatedSolverOptions options;
+  options.tolerance = reachable(body, shift, tolerance);
+  options.only = factor ? SolveWay::update : SolveWay::iterate;
+  if (!factor) {
+    return {shifted(stiffness, shift), [&body, shift] { return shifted_block_jacobi(body, shift); }, options};
+  }
+  Csr matrix = shifted_matrix(body, shift);
+  std::vector<Index> order = dissection_order(matrix, particle_of_free_dof(body), particle_positions(body));
+  return {shifted(stiffness, shift), std::move(matrix), std::move(order), options};
 }
 
 template <int Dim>
@@ -205,6 +246,10 @@ ShiftedPlan plan_shifted_solver(const Body<Dim>& body, bool symmetric, ImplicitS
 #define PERIMODE_SHIFTED(D)                                                                                  \
   template ShiftedSolver make_shifted_solver<D>(const Body<D>&, const LinearOperator&, bool, ImplicitSolver, \
                                                 double, double, std::string&);                               \
+  template ImplicitSolver choose_shifted_solver<D>(const Body<D>&, bool, ImplicitSolver, double, double,     \
+                                                   std::string&);                                            \
+  template UpdatedSolver updated_shifted_solver<D>(const Body<D>&, const LinearOperator&,                    \
+                                                   const Eigen::VectorXd&, bool, double);                    \
   template ShiftedPlan plan_shifted_solver<D>(const Body<D>&, bool, ImplicitSolver, double, double)
 PERIMODE_SHIFTED(1);
 PERIMODE_SHIFTED(2);

@@ -82,26 +82,12 @@ class Everywhere {
   std::vector<double> h_, rate_;
 };
 
-/// Particles with bonds across a surface of given traction, whose map counts on those bonds: none of them
-/// breaks.
-template <int Dim>
-std::vector<Index> held_by_traction(const Body<Dim>& body) {
-  std::vector<Index> held;
-  if (body.boundary.more_start.empty()) return held;
-  for (Index i = 0; i < body.count(); ++i) {
-    bool across = false;
-    for_each_bond(body.bonds, i, Which::alive,
-                  [&](const BondEnd<Dim>& end) { across = across || end.neighbour >= body.count(); });
-    if (across) held.push_back(i);
-  }
-  return held;
-}
-
 /// What a run is made of. The order matters: later ones refer to earlier ones.
 template <int Dim>
 struct Run {
   Motion motion;
-  std::unique_ptr<BondForces<Dim>> forces;
+  std::unique_ptr<BondForces<Dim>> forces;  ///< of explicit steps, if bonds turn or break
+  std::unique_ptr<StepBreaking> breaking;   ///< of implicit steps, if bonds break
   std::shared_ptr<Offset> iterations = std::make_shared<Offset>(0);
   std::unique_ptr<Integrator> integrator;
 };
@@ -124,11 +110,36 @@ void restore(Run<Dim>& run, IntegratorState state) {
 }
 
 template <int Dim>
-std::unique_ptr<Integrator> implicit_integrator(const Body<Dim>& body, const TransientOptions& options,
+BondLimits limits(const Body<Dim>& body, const TransientOptions& options) {
+  BondLimits result{options.critical_stretch};
+  const std::vector<Index> held = unbreakable(body, options);
+  if (held.empty()) return result;
+  result.no_fail.assign(static_cast<std::size_t>(body.count()), 0);
+  for (const Index i : held) result.no_fail[static_cast<std::size_t>(i)] = 1;
+  return result;
+}
+
+/// The solver of implicit steps; with bonds that break, that of run.breaking.
+template <int Dim>
+ShiftedSolver implicit_solver(Body<Dim>& body, const TransientOptions& options, Run<Dim>& run,
+                              TransientPlan& plan) {
+  const double ratio = plan.dt / plan.stable.limit;
+  if (!may_break(options)) {
+    return make_shifted_solver(body, as_operator(run.motion.stiffness), run.motion.symmetric, options.solver,
+                               ratio, options.tolerance, plan.solver);
+  }
+  const ImplicitSolver solver = choose_shifted_solver(body, run.motion.symmetric, options.solver, ratio,
+                                                      options.tolerance, plan.solver);
+  run.breaking = step_breaking(
+      body, run.motion,
+      {limits(body, options), options.form, solver == ImplicitSolver::factor, options.tolerance});
+  return [breaking = run.breaking.get()](const Eigen::VectorXd& d) { return breaking->solver(d); };
+}
+
+template <int Dim>
+std::unique_ptr<Integrator> implicit_integrator(Body<Dim>& body, const TransientOptions& options,
                                                 Run<Dim>& run, TransientPlan& plan) {
-  ShiftedSolver solver =
-      make_shifted_solver(body, as_operator(run.motion.stiffness), run.motion.symmetric, options.solver,
-                          plan.dt / plan.stable.limit, options.tolerance, plan.solver);
+  ShiftedSolver solver = implicit_solver(body, options, run, plan);
   // Counts the iterations of all steps on their way.
   const auto counted = [solver = std::move(solver), total = run.iterations](const Eigen::VectorXd& d) {
     return ShiftedSolve([solve = solver(d), total](const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
@@ -140,7 +151,7 @@ std::unique_ptr<Integrator> implicit_integrator(const Body<Dim>& body, const Tra
   };
   NewmarkOptions newmark_options = options.newmark;
   if (options.method == TimeMethod::newmark) newmark_options.alpha = 0.0;
-  return newmark(run.motion, plan.dt, newmark_options, counted);
+  return newmark(run.motion, plan.dt, newmark_options, counted, run.breaking.get());
 }
 
 template <int Dim>
@@ -319,7 +330,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   const Eigen::VectorXd v = free_part(body.boundary, initial.velocity);
   if (needs_bond_forces(options)) {
     run.forces = std::make_unique<BondForces<Dim>>(body, options.kinematics, options.critical_stretch,
-                                                   held_by_traction(body));
+                                                   unbreakable(body, options));
     run.integrator = central_difference(run.motion, *run.forces, dt);
   } else if (options.method == TimeMethod::central_difference) {
     run.integrator = central_difference(run.motion, dt);
@@ -361,6 +372,7 @@ TransientResult run_transient(Body<Dim>& body, const TransientOptions& options, 
   }
   result.seconds_steps = seconds_since(stepping);
   result.iterations = *run.iterations;
+  if (run.breaking) result.repeats = run.breaking->repeats();
   result.displacement = stepper.displacement();
   result.velocity = stepper.velocity();
   if (!result.plan.symmetric) result.boundary_work = result.energies.balance();

@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "dynamics/instability.hpp"
 #include "dynamics/probes.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/modal/plan.hpp"
@@ -82,10 +83,36 @@ std::int64_t counted_steps(double steps, const TransientOptions& options) {
 
 }  // namespace
 
-bool needs_bond_forces(const TransientOptions& options) {
-  return options.kinematics == Kinematics::large_rotation ||
-         std::any_of(options.critical_stretch.begin(), options.critical_stretch.end(),
+bool may_break(const TransientOptions& options) {
+  return std::any_of(options.critical_stretch.begin(), options.critical_stretch.end(),
                      [](double s) { return std::isfinite(s); });
+}
+
+bool needs_bond_forces(const TransientOptions& options) {
+  return options.method == TimeMethod::central_difference &&
+         (options.kinematics == Kinematics::large_rotation || may_break(options));
+}
+
+template <int Dim>
+std::vector<Index> unbreakable(const Body<Dim>& body, const TransientOptions& options) {
+  std::vector<Index> held;
+  for (const Region& region : options.no_fail) {
+    const std::vector<Index> here = select(region, body.particles);
+    if (here.empty()) {
+      invalid_input({"no_fail regions that hold at least one particle", "none", "move or enlarge the region",
+                     region.where.line > 0 ? region.where : options.where});
+    }
+    held.insert(held.end(), here.begin(), here.end());
+  }
+  for (Index i = 0; i < body.count() && !body.boundary.more_start.empty(); ++i) {
+    bool across = false;
+    for_each_bond(body.bonds, i, Which::alive,
+                  [&](const BondEnd<Dim>& end) { across = across || end.neighbour >= body.count(); });
+    if (across) held.push_back(i);
+  }
+  std::sort(held.begin(), held.end());
+  held.erase(std::unique(held.begin(), held.end()), held.end());
+  return held;
 }
 
 template <int Dim>
@@ -110,11 +137,15 @@ void check_options(const Body<Dim>& body, const TransientOptions& options) {
     invalid_input({"method: central_difference with kinematics: large_rotation", method_name(options.method),
                    "use central_difference, or kinematics: linear", options.where});
   }
-  if (needs_bond_forces(options) && !explicit_method) {
-    invalid_input({"method: central_difference for a material that breaks", method_name(options.method),
-                   "use central_difference, or leave out fracture_energy and critical_stretch",
-                   options.where});
+  if (may_break(options) && options.method == TimeMethod::modal) {
+    invalid_input({"method: central_difference, newmark or hht for a material that breaks", "modal",
+                   "use one of these, or leave out fracture_energy and critical_stretch", options.where});
   }
+  if (may_break(options) && !explicit_method && softening(body)) {
+    invalid_input({"bonds that pull when they are stretched, for implicit steps that break them",
+                   "a micromodulus with negative parts", "use central_difference", options.where});
+  }
+  (void)unbreakable(body, options);
   if (needs_bond_forces(options) && options.form != StiffnessForm::automatic) {
     invalid_input({"operator: auto for bonds that turn or break", "another",
                    "remove `operator`: such bonds have forces of their own", options.where});
@@ -136,6 +167,11 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
   plan.conserves = !needs_bond_forces(options);
   const bool explicit_method = options.method == TimeMethod::central_difference;
   const bool implicit_method = options.method == TimeMethod::newmark || options.method == TimeMethod::hht;
+  if (may_break(options) && implicit_method && !motion.symmetric) {
+    invalid_input({"a symmetric boundary for implicit steps that break bonds",
+                   "surface nodes, or odd or even walls",
+                   "use mirror, antimirror or zero_layer walls, or central_difference", options.where});
+  }
   if (explicit_method || implicit_method || options.dt == 0.0) {
     plan.stable = stable_step(body, as_operator(motion.stiffness), motion.mass, motion.symmetric,
                               explicit_method ? options.rayleigh_stiffness : 0.0);
@@ -193,8 +229,8 @@ double predicted_memory(const Body<Dim>& body, const TransientOptions& options, 
   // State, forces and the work of the integrator; the frames and fields that are written.
   const bool explicit_method = options.method == TimeMethod::central_difference;
   double vectors = explicit_method ? 5.0 : 14.0;
-  if (needs_bond_forces(options))
-    vectors += 2.0 + 4.0 / Dim;  // over the padded grid; properties of particles
+  if (needs_bond_forces(options)) vectors += 2.0 + 4.0 / Dim;  // over the padded grid; of particles
+  if (may_break(options) && !explicit_method) vectors += 8.0;  // of all particle dofs, and of the solver
   return common + sizeof(double) * (vectors * dofs + 6.0 * all_dofs) + factor_bytes;
 }
 
@@ -218,6 +254,7 @@ TransientPlan plan_transient(const Body<Dim>& body, const TransientOptions& opti
 }
 
 #define PERIMODE_PLAN(D)                                                                        \
+  template std::vector<Index> unbreakable<D>(const Body<D>&, const TransientOptions&);          \
   template void check_options<D>(const Body<D>&, const TransientOptions&);                      \
   template TransientPlan plan_steps<D>(const Body<D>&, const TransientOptions&, const Motion&); \
   template TransientPlan plan_transient<D>(const Body<D>&, const TransientOptions&)

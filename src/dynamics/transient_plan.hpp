@@ -5,8 +5,16 @@
 
 namespace perimode {
 
-/// Whether the run needs the forces of bonds that turn or break.
+/// Whether bonds may break.
+[[nodiscard]] bool may_break(const TransientOptions& options);
+
+/// Whether the run needs the forces of bonds that turn or break: explicit steps of them.
 [[nodiscard]] bool needs_bond_forces(const TransientOptions& options);
+
+/// Particles none of whose bonds break, ascending: those of no_fail, and those with bonds across a surface of
+/// given traction, whose map counts on these bonds. Throws invalid_input for a region without particles.
+template <int Dim>
+[[nodiscard]] std::vector<Index> unbreakable(const Body<Dim>& body, const TransientOptions& options);
 
 /// Throws what run_transient throws of options that do not fit each other or the body, before anything is
 /// computed.

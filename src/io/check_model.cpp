@@ -86,6 +86,7 @@ void check_block_names(const Case& result) {
   if (result.transient) {
     require_loads(result.transient->loads);
     for (const NodalDamping& damping : result.transient->damping) require_region(names, damping.at);
+    for (const Region& region : result.transient->no_fail) require_region(names, region);
   }
   if (!result.quasistatic) return;
   require_loads(result.quasistatic->loads);

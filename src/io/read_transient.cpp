@@ -27,7 +27,7 @@ void refuse_keys_of_others(const Section& section, const std::string& method) {
   only({"alpha"}, method == "hht", "hht");
   only({"modes"}, method == "modal", "modal");
   only({"solver", "tolerance"}, method == "newmark" || method == "hht", "newmark and hht");
-  only({"operator", "sponge"}, method != "modal", "the other methods");
+  only({"operator", "sponge", "no_fail"}, method != "modal", "the other methods");
 }
 
 void read_method(const Section& section, TransientOptions& options) {
@@ -243,7 +243,8 @@ void read_transient(const Cursor& cursor, InputFiles& files, Case& result) {
   const BodyFacts facts = facts_of(result.model);
   const Section section(cursor, {"method", "dt", "end", "beta", "gamma", "alpha", "modes", "solver",
                                  "tolerance", "operator", "initial", "loads", "damping", "sponge", "probes",
-                                 "history_every", "fields_at", "fields_every", "checkpoint_every"});
+                                 "no_fail", "history_every", "fields_at", "fields_every",
+                                 "checkpoint_every"});
   TransientOptions options;
   options.where = cursor.where();
   options.kinematics = result.kinematics;
@@ -260,6 +261,10 @@ void read_transient(const Cursor& cursor, InputFiles& files, Case& result) {
   if (const auto loads = section.find("loads")) options.loads = read_loads(*loads, facts, files);
   if (const auto damping = section.find("damping")) read_damping(*damping, facts, options);
   if (const auto sponge = section.find("sponge")) options.sponge = read_sponge(*sponge, result.model);
+  if (const auto regions = section.find("no_fail")) {
+    for (const Cursor& item : regions->items("[ { face: x-, layers: 2 } ]"))
+      options.no_fail.push_back(read_region(item, facts));
+  }
   if (const auto probes = section.find("probes")) options.probes = read_probes(*probes, result.model);
   result.transient = std::move(options);
   result.transient_where = cursor.where();

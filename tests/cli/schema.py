@@ -63,6 +63,7 @@ analysis:
              { body_force: [0, 1], time: { gaussian: [1.0e-4, 2.0e-5] } }, { force: [0, 1], time: { half_sine: 1.0e-4 } } ]
     damping: { rayleigh: [10, 1.0e-9], nodal: [ { rate: 100, at: { block: edge } } ] }
     sponge: { faces: [y-, y+], width: 0.1, rate: 1.0e+4, power: 2 }
+    no_fail: [ { face: y-, layers: 3 }, { block: edge }, { ball: { centre: [1, 0.25], radius: 0.1 } } ]
     probes: { tip: { displacement_at: [1, 0.25] }, v: { velocity_at: [0, 0] }, e: { strain_between: [[0.2, 0.2], [0.8, 0.2]] } }
     history_every: 10
     fields_at: [0, 5.0e-4]

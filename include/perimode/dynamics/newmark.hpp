@@ -32,10 +32,18 @@ using ShiftedSolve =
 /// How a Newmark step is solved, made once: by a factor of K + diag(d), or by conjugate gradients.
 using ShiftedSolver = std::function<ShiftedSolve(const Eigen::VectorXd& d)>;
 
+class StepBreaking;
+
 /// Each step costs one product with K and one solution; gamma > 1/2, HHT and stiffness damping take a product
 /// more each, energies one or two. `motion` has to outlive the integrator. Throws invalid_input for
 /// parameters outside their range (beta <= 0, gamma < 1/2, alpha outside [-1/3, 0]).
+/// `breaking` (step_breaking.hpp, of the same motion; `solver` then is its own): a step is solved again
+/// without the bonds that are beyond their critical stretch at its end, until none is. The equation of a step
+/// is that of the bonds alive at its end, HHT's weighted forces included. With gamma = 1/2, alpha = 0 a bond
+/// takes along k_b e_n e_{n+1}/2, its elongations at both ends of the step; the general form, which keeps the
+/// balance to round-off, is in docs/theory/12_implicit.md.
 [[nodiscard]] std::unique_ptr<Integrator> newmark(const Motion& motion, double dt,
-                                                  const NewmarkOptions& options, const ShiftedSolver& solver);
+                                                  const NewmarkOptions& options, const ShiftedSolver& solver,
+                                                  StepBreaking* breaking = nullptr);
 
 }  // namespace perimode

@@ -6,6 +6,7 @@
 #include "perimode/assembly/body.hpp"
 #include "perimode/dynamics/newmark.hpp"
 #include "perimode/linalg/operator.hpp"
+#include "perimode/linalg/updated_solver.hpp"
 
 namespace perimode {
 
@@ -24,6 +25,21 @@ template <int Dim>
 [[nodiscard]] ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness,
                                                 bool symmetric, ImplicitSolver which, double ratio,
                                                 double tolerance, std::string& description);
+
+/// factor or cg, as make_shifted_solver chooses.
+template <int Dim>
+[[nodiscard]] ImplicitSolver choose_shifted_solver(const Body<Dim>& body, bool symmetric,
+                                                   ImplicitSolver which, double ratio, double tolerance,
+                                                   std::string& description);
+
+/// The solver of (K + diag(d)) x = b for a symmetric body that loses bonds: a factor that is updated at every
+/// change, or conjugate gradients with block Jacobi of the bonds as they are when it is made. Ways that
+/// timings would choose are left out, so that runs repeat to the last bit. `body` and `stiffness`, which
+/// follows the bonds, have to outlive it.
+template <int Dim>
+[[nodiscard]] UpdatedSolver updated_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness,
+                                                   const Eigen::VectorXd& shift, bool factor,
+                                                   double tolerance);
 
 /// What make_shifted_solver would choose.
 struct ShiftedPlan {

@@ -17,6 +17,7 @@
 #include "perimode/dynamics/newmark.hpp"
 #include "perimode/dynamics/shifted_solver.hpp"
 #include "perimode/dynamics/stable_step.hpp"
+#include "perimode/dynamics/step_breaking.hpp"
 
 namespace perimode {
 
@@ -75,6 +76,7 @@ struct TransientOptions {
   int fields_every = 0;                       ///< steps; 0: none but fields_at
   int checkpoint_every = 0;                   ///< steps; 0: none but at an interruption
   std::vector<double> critical_stretch = {};  ///< per block; empty: unbreakable
+  std::vector<Region> no_fail = {};           ///< particles none of whose bonds break
   Where dt_where = {};
   Where where = {};
 };
@@ -109,7 +111,8 @@ struct TransientPlan {
   std::string solver;  ///< of implicit steps, with the reason; empty: none
   StableStep stable;
   bool symmetric = true;  ///< R K T
-  bool conserves = true;  ///< energies balance to round-off where K is symmetric: no bond turns or may break
+  /// Energies balance to round-off where K is symmetric: no bond turns, none breaks in explicit steps.
+  bool conserves = true;
   double dt = 0.0;
   std::int64_t steps = 0;
   double memory_bytes = 0.0;  ///< predicted peak; by plan_transient alone
@@ -150,6 +153,7 @@ struct TransientResult {
   std::int64_t broken_bonds = 0;
   double boundary_work = 0.0;  ///< of an unsymmetric boundary, J
   Offset iterations = 0;       ///< of conjugate gradients, all steps
+  StepRepeats repeats;         ///< of implicit steps in which bonds broke
   double seconds_setup = 0.0, seconds_steps = 0.0, seconds_output = 0.0;
   Eigen::VectorXd displacement;  ///< of all particle dofs at the end, m
   Eigen::VectorXd velocity;      ///< m/s
@@ -158,10 +162,11 @@ struct TransientResult {
 /// Steps a body through time. Bonds break in `body` where critical_stretch is given. `resume`: goes on from a
 /// state an observer was given by the same run. Throws invalid_input: dt <= 0 or beyond the stable step (with
 /// both numbers and the bound), end <= 0, a probe outside the body, an empty load region, a method that does
-/// not fit (modal superposition of an unsymmetric body, large rotations with an implicit method), a material
-/// instability. Displacements that are no numbers end a run as unstable, and so does, with an unsymmetric
-/// boundary, an energy beyond 10^4 times what was ever put in once StableStep::growth has had the time for
-/// it.
+/// not fit (modal superposition of an unsymmetric body, large rotations with an implicit method, bonds that
+/// break with modal superposition, or with an implicit method and an unsymmetric boundary or bonds that push
+/// when stretched), a material instability. Displacements that are no numbers end a run as unstable, and so
+/// does, with an unsymmetric boundary, an energy beyond 10^4 times what was ever put in once
+/// StableStep::growth has had the time for it.
 template <int Dim>
 [[nodiscard]] TransientResult run_transient(Body<Dim>& body, const TransientOptions& options,
                                             const InitialState& initial,
