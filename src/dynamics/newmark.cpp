@@ -86,9 +86,9 @@ class Newmark final : public Integrator {
   void advance(bool with_energies) override {
     const Eigen::VectorXd next = values_at(motion_->force, static_cast<double>(step_ + 1) * dt_);
     const Eigen::VectorXd dh = next - h_;
-    solve_step(next, dh);
+    solve_step(next, dh, false);
     if (breaking_ != nullptr) {
-      while (breaking_->break_beyond(end_of_step(), next)) solve_step(next, dh);
+      while (breaking_->break_beyond(end_of_step(), next)) solve_step(next, dh, true);
       release(dh);
       breaking_->settle();
     }
@@ -170,24 +170,25 @@ class Newmark final : public Integrator {
   [[nodiscard]] double v_part(Index i) const { return v_[i] + dt_ * (1.0 - o_.gamma) * a_[i]; }
 
   /// x = w' and rhs = -C v' without the acceleration at the end of the step; rhs without its stiffness part.
-  void predict() {
+  /// The guess is the acceleration at its start, or the solution that was found before (`again`).
+  void predict(bool again) {
     const double* rate = rate_of(*motion_);
     const double b = motion_->stiffness_damping;
     for_each_chunk(n_, [&](Index first, Index count) {
       for (Index i = first; i < first + count; ++i) {
         const double v = v_part(i), dv = v - v_[i];
         const double q = q_part(i), dq = q - q_[i];
+        guess_[i] = again ? x_[i] : reach_ * a_[i];
         x_[i] = q + b * v + o_.alpha * (dq + b * dv);
         rhs_[i] = rate == nullptr ? 0.0 : -rate[i] * motion_->mass[i] * (v + o_.alpha * dv);
-        guess_[i] = reach_ * a_[i];
       }
     });
   }
 
   /// reach a_{n+1} for the bonds as they are. Solved for what the predictor lacks, so that rounding is that
   /// of the acceleration.
-  void solve_step(const Eigen::VectorXd& next, const Eigen::VectorXd& dh) {
-    predict();
+  void solve_step(const Eigen::VectorXd& next, const Eigen::VectorXd& dh, bool again) {
+    predict(again);
     stiffness_.apply(x_.data(), product_.data());
     for_each_chunk(n_, [&](Index first, Index count) {
       for (Index i = first; i < first + count; ++i) rhs_[i] -= product_[i];
