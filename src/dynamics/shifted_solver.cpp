@@ -182,10 +182,10 @@ ShiftedSolve by_iterations(const Body<Dim>& body, const LinearOperator& stiffnes
   };
 }
 
-/// K + diag(d) of the bonds as they are.
+/// K + diag(d) of the bonds as they are, with room for all that it will be when some are gone.
 template <int Dim>
 Csr shifted_matrix(const Body<Dim>& body, const Eigen::VectorXd& shift) {
-  Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number, Zeros::keep);
   for (Index i = 0; i < k.rows; ++i) {
     const auto row = k.column.begin() + k.row_start[i];
     const auto diagonal = std::lower_bound(row, k.column.begin() + k.row_start[i + 1], i);
