@@ -43,6 +43,7 @@ constexpr const char* examples = R"(Examples:
   perimode modal plate.yaml --threads 2         modes: table, modes.csv, modes.exo, summary.json
   perimode static plate.yaml                    displacements under loads: fields.exo, reactions.csv
   perimode transient plate.yaml                 motion in time: history.csv, fields.exo
+  perimode quasistatic plate.yaml               crack growth: load_curve.csv, crack_path.csv, fields.exo
   perimode transient plate.yaml --resume        go on with a run that was interrupted or killed
   perimode modal plate.yaml --set body.horizon.ratio=4 --output out/m4
 
@@ -146,8 +147,9 @@ int main(int argc, char** argv) {
   perimode::cli::prepare_process(argv);
   keep_freed_memory();
   perimode::cli::watch_for_interrupts();
-  CLI::App app{"Perimode: vibration modes, statics and motion in time of bond-based peridynamic bodies",
-               "perimode"};
+  CLI::App app{
+      "Perimode: vibration modes, statics, motion in time and crack growth of bond-based peridynamic bodies",
+      "perimode"};
   app.footer(examples);
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -194,6 +196,17 @@ int main(int argc, char** argv) {
       "Example: perimode transient plate.yaml --set analysis.transient.end=2.0e-3 --output out/plate "
       "--force");
   transient->callback([&] { command = [&](Console& c) { return run_transient(arguments, c); }; });
+
+  CLI::App* quasistatic =
+      app.add_subcommand("quasistatic", "grow cracks under loads that never outrun equilibrium");
+  common(quasistatic);
+  result(quasistatic);
+  quasistatic->add_flag("--resume", arguments.resume, "go on from the last checkpoint of an unfinished run");
+  quasistatic->footer(
+      "Example: perimode quasistatic plate.yaml --set analysis.quasistatic.fields_every=50 --output "
+      "out/plate "
+      "--force");
+  quasistatic->callback([&] { command = [&](Console& c) { return run_quasistatic(arguments, c); }; });
 
   CLI::App* check = app.add_subcommand("check", "read a case and predict what it takes; runs nothing");
   common(check);

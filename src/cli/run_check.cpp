@@ -11,6 +11,8 @@
 #include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/io/case.hpp"
 #include "perimode/modal/plan.hpp"
+#include "quasistatic_case.hpp"
+#include "quasistatic_output.hpp"
 #include "static_output.hpp"
 #include "transient_output.hpp"
 
@@ -90,6 +92,13 @@ Prediction check_transient(const Body<Dim>& body, const Case& input) {
   return {transient_plan_text(body, plan), plan.memory_bytes, "this transient analysis", plan.warnings};
 }
 
+template <int Dim>
+Prediction check_quasistatic(const Body<Dim>& body, const Case& input) {
+  const QuasistaticPlan plan = planned(
+      input.quasistatic_where, [&] { return plan_quasistatic(body, quasistatic_options(input, body)); });
+  return {quasistatic_plan_text(plan), plan.memory_bytes, "this quasi-static analysis", plan.warnings};
+}
+
 /// All analyses of a case; modes where they are asked for, or nothing else is.
 template <int Dim>
 int check(const Case& input, Console& console) {
@@ -97,9 +106,11 @@ int check(const Case& input, Console& console) {
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
   std::vector<Prediction> predictions;
-  if (input.modal || !(input.statics || input.transient)) predictions.push_back(check_modal(body, input));
+  if (input.modal || !(input.statics || input.transient || input.quasistatic))
+    predictions.push_back(check_modal(body, input));
   if (input.statics) predictions.push_back(check_static(body, input));
   if (input.transient) predictions.push_back(check_transient(body, input));
+  if (input.quasistatic) predictions.push_back(check_quasistatic(body, input));
   console.clear_progress();
   fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
   for (const Prediction& prediction : predictions) fmt::print("{}", prediction.text);
