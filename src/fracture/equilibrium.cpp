@@ -35,7 +35,7 @@ double iterated_bytes(const Body<Dim>& body, double tolerance) {
 
 template <int Dim>
 Csr free_matrix(const Body<Dim>& body, const std::vector<Pin>& pins) {
-  Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number, Zeros::keep);
   for (const Pin& pin : pins) {
     const auto first = k.column.begin() + k.row_start[pin.dof];
     const auto last = k.column.begin() + k.row_start[pin.dof + 1];
@@ -75,7 +75,7 @@ EquilibriumChoice choose_equilibrium(const Body<Dim>& body, const UpdatedSolverO
   if (Dim > 1 && !options.only && dofs > most_dofs_to_order[Dim - 1])
     return {true, fmt::format("{:.0f} dofs are too many for a factor", dofs), {}, 0.0};
   EquilibriumChoice choice;
-  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number, Zeros::keep);
   choice.fill = predict_fill_with_order(k, elimination_order(body, k));
   choice.matrix_bytes = 12.0 * static_cast<double>(k.nonzeros());
   const double factor = (2.5 * choice.fill.factor_bytes + choice.fill.flops / solutions_of_a_run) / dofs;
