@@ -54,7 +54,8 @@ QuasistaticOptions crack_opening_run(const Model& model, const Body<2>& body) {
 
 double crack_opening_stress(double a) {
   const double f = 1.12 + a * (-0.231 + a * (10.55 + a * (-21.72 + a * 30.39)));
-  return std::sqrt(energy_of_fracture * youngs_modulus / (1.0 - nu * nu)) / (std::sqrt(std::numbers::pi * a) * f);
+  return std::sqrt(energy_of_fracture * youngs_modulus / (1.0 - nu * nu)) /
+         (std::sqrt(std::numbers::pi * a) * f);
 }
 
 double griffith_ratio(const GriffithLoad& load, int cells) {

@@ -35,8 +35,7 @@ std::vector<double> solve_afresh(const Body<Dim>& body, const Eigen::VectorXd& l
   Eigen::VectorXd b(map.free);
   for (std::size_t d = 0; d < force.size(); ++d)
     if (map.free_number[d] >= 0) b[map.free_number[d]] = load[static_cast<Eigen::Index>(d)] - force[d];
-  CholeskyFactor factor =
-      CholeskyFactor::with_order(k, fill_reducing_order(k, particle_of_free_dof(body)));
+  CholeskyFactor factor = CholeskyFactor::with_order(k, fill_reducing_order(k, particle_of_free_dof(body)));
   const double shift = 1e-10 * norm_inf(k);
   if (factor.factorize(k, -shift, Eigen::VectorXd::Ones(map.free)) != FactorStatus::done) return {};
   Eigen::MatrixXd x = Eigen::MatrixXd::Zero(map.free, 1);

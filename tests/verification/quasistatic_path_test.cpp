@@ -117,7 +117,9 @@ TEST(QuasistaticPath, RoundAHoleUnderGivenMotionIsThatByBruteForce) {
   expect_brute_force<2>(plate_with_hole());
 }
 
-TEST(QuasistaticPath, OfABlockWithAPlaneCrackIsThatByBruteForce) { expect_brute_force<3>(block_with_crack()); }
+TEST(QuasistaticPath, OfABlockWithAPlaneCrackIsThatByBruteForce) {
+  expect_brute_force<3>(block_with_crack());
+}
 
 TEST(QuasistaticPath, IsTheSameWhateverWayTheSolutionsTake) {
   for (const Case& c : {pulled_plate(), plate_with_hole()}) {

@@ -87,8 +87,9 @@ TEST(QuasistaticPieces, WithoutSupportAreHeldOrRemoved) {
     EXPECT_EQ(path.result.status, QuasistaticStatus::separated) << path.result.message;
     expect_sound(path, false);
     ASSERT_FALSE(path.loose.empty());
-    const auto island = std::max_element(path.loose.begin(), path.loose.end(),
-                                         [](const auto& a, const auto& b) { return a.particles < b.particles; });
+    const auto island =
+        std::max_element(path.loose.begin(), path.loose.end(),
+                         [](const auto& a, const auto& b) { return a.particles < b.particles; });
     EXPECT_GE(island->particles, 20);  // of 32 between the necks
     EXPECT_FALSE(island->loaded);
     EXPECT_LT(island->event, path.rows.back().event);
