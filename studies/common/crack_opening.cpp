@@ -58,6 +58,12 @@ double crack_opening_stress(double a) {
          (std::sqrt(std::numbers::pi * a) * f);
 }
 
+GriffithLoad crack_opening_griffith(const Model& model) {
+  const Body<2> body = build_body<2>(model);
+  return griffith_load(body, crack_opening_run(model, body).loads, crack_increment(model, body),
+                       fracture_energy_of(model, body));
+}
+
 double griffith_ratio(const GriffithLoad& load, int cells) {
   return load.load_factor / crack_opening_stress(opening_crack + 0.5 / cells);
 }

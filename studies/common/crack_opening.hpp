@@ -2,6 +2,7 @@
 #pragma once
 
 #include "perimode/assembly/body.hpp"
+#include "perimode/fracture/griffith.hpp"
 #include "perimode/fracture/quasistatic.hpp"
 
 namespace perimode::studies {
@@ -25,6 +26,9 @@ inline constexpr double opening_crack = 0.25;  ///< length of the crack, m
 /// Critical traction of linear elastic fracture mechanics for a crack of length a < 0.6 m, Pa [tada1973]:
 ///   sigma = sqrt(G0 E/(1 - nu^2)) / (sqrt(pi a) (1.12 - 0.231 a + 10.55 a^2 - 21.72 a^3 + 30.39 a^4)).
 [[nodiscard]] double crack_opening_stress(double a);
+
+/// The Griffith load of that patch by the compliance of a crack longer by one spacing, Pa.
+[[nodiscard]] GriffithLoad crack_opening_griffith(const Model& model);
 
 /// A load of the Griffith criterion over crack_opening_stress in the middle of its increment of one spacing.
 [[nodiscard]] double griffith_ratio(const GriffithLoad& load, int cells);

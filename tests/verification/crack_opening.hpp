@@ -27,14 +27,11 @@ inline const std::map<int, double> griffith_ratios = {
 inline void expect_griffith(int coarse, int fine) {
   std::map<int, double> found;
   for (const int cells : {coarse, fine}) {
-    const QuasistaticResult r = open_crack(cells, [](QuasistaticOptions& o) {
-      o.griffith = true;
-      o.stop.events = 1;
-    });
-    ASSERT_TRUE(r.griffith.has_value());
-    EXPECT_EQ(r.griffith->cut, 18);  // sum of the rows that bonds span, over all bonds within the horizon
-    EXPECT_NEAR(r.griffith->fracture_energy, 0.358, 1e-12);
-    found[cells] = studies::griffith_ratio(*r.griffith, cells);
+    const GriffithLoad r =
+        studies::crack_opening_griffith(studies::crack_opening_patch(cells, 3.0, Calibration::discrete));
+    EXPECT_EQ(r.cut, 18);  // sum of the rows that bonds span, over all bonds within the horizon
+    EXPECT_NEAR(r.fracture_energy, 0.358, 1e-12);
+    found[cells] = studies::griffith_ratio(r, cells);
     EXPECT_NEAR(found[cells], griffith_ratios.at(cells), 1e-4);
   }
   const double slope = (found[coarse] - found[fine]) / (1.0 / coarse - 1.0 / fine);

@@ -28,6 +28,7 @@ QuasistaticOptions path_options(const Model& model, const Body<Dim>& body, std::
   options.loads = std::move(loads);
   options.critical_stretch = critical_stretches(model, body);
   options.area = crack_area_scale(model, body);
+  options.solver.tolerance = 1e-12;  // energies balance to the residual of the solutions
   return options;
 }
 

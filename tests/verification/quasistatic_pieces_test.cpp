@@ -81,7 +81,10 @@ TEST(QuasistaticPieces, WithoutSupportAreHeldOrRemoved) {
   ObservedPath paths[2];
   for (const LoosePieces loose : {LoosePieces::hold, LoosePieces::remove}) {
     ObservedPath& path = paths[static_cast<std::size_t>(loose)];
-    path = run(model, {}, [&](QuasistaticOptions& o) { o.loose = loose; });
+    path = run(model, {}, [&](QuasistaticOptions& o) {
+      o.loose = loose;
+      o.solver.only = SolveWay::update;  // a piece on hinges shows where a pivot vanishes
+    });
     EXPECT_EQ(path.result.status, QuasistaticStatus::separated) << path.result.message;
     expect_sound(path, false);
     ASSERT_FALSE(path.loose.empty());
