@@ -288,9 +288,11 @@ void CrackRun<Dim>::hold_or_remove(const std::vector<Index>& piece, const std::v
 template <int Dim>
 void CrackRun<Dim>::pin_mechanism(Index dof) {
   if (dof < 0) {
-    for (const LooseMotion& loose : loose_motions(*body_, *equilibrium_, problem_.mass))
-      hold_or_remove(loose.particles, loose.dofs);
-    return;
+    const std::vector<LooseMotion> rigid = loose_motions(*body_, *equilibrium_, problem_.mass);
+    for (const LooseMotion& loose : rigid) hold_or_remove(loose.particles, loose.dofs);
+    if (!rigid.empty()) return;
+    dof = equilibrium_->mechanism_dof();
+    if (dof < 0) return;
   }
   if (equilibrium_->pinned(dof)) return;
   equilibrium_->pin({dof});

@@ -38,7 +38,8 @@ struct StaleIterations {
   }
 };
 
-constexpr double start_share = 0.001;  // of a factorisation: an updated column before any was measured
+constexpr double start_share = 0.001;       // of a factorisation: an updated column before any was measured
+constexpr double too_small_to_time = 5e-3;  // s, a factorisation beside which no choice pays
 constexpr double worse_than_fresh = 10.0;
 constexpr double always_fine = 1e-12;  // a residual that needs no refinement
 constexpr int most_refinements = 2;
@@ -128,7 +129,7 @@ struct UpdatedSolver::Implementation {
     const double update = lacking * each + solution.seconds;
     const double stale = stale_iterations.predict(lacking) * (solution.seconds + product.seconds);
     const double again = factor_time + solution.seconds;
-    if (update <= std::min(stale, again)) return SolveWay::update;
+    if (factor_time < too_small_to_time || update <= std::min(stale, again)) return SolveWay::update;
     return stale < again ? SolveWay::stale : SolveWay::refactor;
   }
 

@@ -48,7 +48,9 @@ struct Told {
   QuasistaticObserver<Dim> observer() {
     QuasistaticObserver<Dim> o;
     o.row = [this](const QuasistaticRow& row) { rows.push_back(row); };
-    o.broken = [this](const std::vector<BrokenBond<Dim>>& b) { broken.insert(broken.end(), b.begin(), b.end()); };
+    o.broken = [this](const std::vector<BrokenBond<Dim>>& b) {
+      broken.insert(broken.end(), b.begin(), b.end());
+    };
     o.checkpoint = [this](const IntegratorState& state) { checkpoints.push_back(state); };
     o.fields = [this](const QuasistaticFrame<Dim>& frame) { frames.push_back(frame.event); };
     return o;

@@ -185,7 +185,8 @@ TEST(Quasistatic, EveryWayOfSolvingFollowsTheSamePath) {
     EXPECT_EQ(result.status, QuasistaticStatus::separated) << name(way) << ": " << result.message;
     paths.emplace_back();
     for (const auto& b : told.broken) {
-      for (const std::int64_t x : {b.event, static_cast<std::int64_t>(b.first), static_cast<std::int64_t>(b.second)})
+      for (const std::int64_t x :
+           {b.event, static_cast<std::int64_t>(b.first), static_cast<std::int64_t>(b.second)})
         paths.back().push_back(x);
     }
     EXPECT_EQ(paths.back(), paths.front()) << name(way);
@@ -290,15 +291,19 @@ TEST(Quasistatic, RefusesWhatMakesNoRun) {
     return refusal([&] { (void)run_quasistatic(body, o); });
   };
   EXPECT_NE(message([](auto& o) { o.loads.clear(); }).find("loads or moves"), std::string::npos);
-  EXPECT_NE(message([](auto& o) { o.loads = {pull({0.0, 0.0}, face(1, true))}; }).find("loads or moves"),
+  EXPECT_NE(message([](auto& o) {
+              o.loads = {pull({0.0, 0.0}, face(1, true))};
+            }).find("loads or moves"),
             std::string::npos);
-  EXPECT_NE(message([](auto& o) { o.critical_stretch = {std::numeric_limits<double>::infinity()}; })
-                .find("material that breaks"),
+  EXPECT_NE(message([](auto& o) {
+              o.critical_stretch = {std::numeric_limits<double>::infinity()};
+            }).find("material that breaks"),
             std::string::npos);
   EXPECT_NE(message([](auto& o) { o.loads[0].time.kind = TimeFunction::Kind::ramp; }).find("control: steps"),
             std::string::npos);
-  EXPECT_NE(message([](auto& o) { o.no_fail = {{BoxRegion{{-1.0, -1.0}, {2.0, 2.0}}, {}}}; })
-                .find("stretches a bond"),
+  EXPECT_NE(message([](auto& o) {
+              o.no_fail = {{BoxRegion{{-1.0, -1.0}, {2.0, 2.0}}, {}}};
+            }).find("stretches a bond"),
             std::string::npos);
   m.boundary.clear();
   body = build_body<2>(m);
