@@ -45,6 +45,14 @@ constexpr double always_fine = 1e-12;  // a residual that needs no refinement
 constexpr int most_refinements = 2;
 constexpr double hopeless = 1e-6;  // a residual that is no solution
 
+/// The row with the entry of largest size; -1 where some are no numbers.
+Index largest_row(const Eigen::MatrixXd& x) {
+  if (!x.allFinite() || x.size() == 0) return -1;
+  Eigen::Index row = 0, column = 0;
+  x.cwiseAbs().maxCoeff(&row, &column);
+  return static_cast<Index>(row);
+}
+
 }  // namespace
 
 std::string name(SolveWay way) {
@@ -271,6 +279,11 @@ struct UpdatedSolver::Implementation {
       }
     }
     if (!done) solve_freshly(b, x, outcome);
+    if (usable && !(outcome.residual <= hopeless)) {
+      // A fresh factor whose vanishing pivot rounding has kept positive: x is the motion it belongs to.
+      usable = false;
+      outcome.dof = largest_row(x);
+    }
     outcome.singular = !usable;
     if (outcome.singular) {
       outcome.converged = false;
@@ -280,9 +293,7 @@ struct UpdatedSolver::Implementation {
     }
     outcome.dof = -1;
     outcome.message.clear();
-    outcome.converged = outcome.residual <= hopeless;
-    if (!outcome.converged)
-      outcome.message = fmt::format("round-off holds the residual at {:.3g}", outcome.residual);
+    outcome.converged = true;
   }
 };
 
