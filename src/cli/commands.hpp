@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "console.hpp"
+#include "perimode/io/case.hpp"
 
 namespace perimode::cli {
 
@@ -19,6 +20,7 @@ struct Arguments {
   bool force = false;                                ///< replace an earlier result
   bool resume = false;                               ///< go on from the last checkpoint
   bool matrices = false;                             ///< also write K.mtx and M.mtx
+  std::optional<int> crack_growth;                   ///< modal: steps in which the pre-cracks grow
   std::string command_line;                          ///< as typed, to be shown
   std::optional<std::filesystem::path> template_to;  ///< `new`: a file instead of standard output
 };
@@ -39,6 +41,7 @@ int with_dimension(int dimension, Run&& run) {
 /// Each returns the program's exit code: 0 done, 1 ran but did not reach its goal, 130 interrupted. Bad input
 /// and a lacking environment are thrown as Error.
 int run_modal(const Arguments& arguments, Console& console);
+int run_crack_growth(const Case& input, const Arguments& arguments, Console& console);
 int run_static(const Arguments& arguments, Console& console);
 int run_transient(const Arguments& arguments, Console& console);
 int run_quasistatic(const Arguments& arguments, Console& console);

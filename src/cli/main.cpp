@@ -176,7 +176,12 @@ int main(int argc, char** argv) {
   CLI::App* modal = app.add_subcommand("modal", "compute vibration modes");
   common(modal);
   result(modal);
-  modal->add_flag("--matrices", arguments.matrices, "also write K.mtx and M.mtx (Matrix Market)");
+  CLI::Option* matrices =
+      modal->add_flag("--matrices", arguments.matrices, "also write K.mtx and M.mtx (Matrix Market)");
+  modal
+      ->add_option("--crack-growth", arguments.crack_growth,
+                   "frequencies while the pre-cracks grow in so many steps: crack_growth.csv")
+      ->excludes(matrices);
   modal->footer(
       "Example: perimode modal plate.yaml --set analysis.modal.modes=40 --output out/plate --force");
   modal->callback([&] { command = [&](Console& c) { return run_modal(arguments, c); }; });

@@ -158,6 +158,7 @@ int run_modal(const Arguments& arguments, Console& console) {
                    "add `analysis: { modal: { modes: 20 } }`",
                    {arguments.case_file.string(), 0, 0}});
   }
+  if (arguments.crack_growth) return run_crack_growth(input, arguments, console);
   return with_dimension(input.model.dimension,
                         [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
 }

@@ -76,23 +76,14 @@ std::vector<Index> elimination_order(const EigenProblem& problem) {
              : fill_reducing_order(*problem.stiffness, problem.node_of_dof);
 }
 
-EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
-  EigenResult out;
-  out.engine = method_name(options);
-  sink.report("analysis");
-  const Stopwatch analysis;
-  CholeskyFactor factor = CholeskyFactor::with_order(*problem.stiffness, elimination_order(problem));
-  out.seconds_analyse = analysis.seconds();
-  out.factor_nonzeros = factor.fill().nonzeros;
+namespace {
 
-  sink.report("factorisation");
-  const Stopwatch factorisation;
-  out.shift = factor_definite(factor, problem, options);
+/// The lowest modes by a factor of K - out.shift M.
+void search_lowest(const EigenProblem& problem, const EigenOptions& options, const CholeskyFactor& factor,
+                   EigenResult& out, const Sink& sink) {
+  const Stopwatch iteration;
   SpectralTransform op = shift_invert(out.shift, true, problem.mass->cwiseSqrt(),
                                       [&](const MatrixView& b) { return factor.solve(b); });
-  out.seconds_factor = factorisation.seconds();
-
-  const Stopwatch iteration;
   const Eigen::MatrixXd known = known_directions(problem);
   const Wanted wanted{.count = std::min<Eigen::Index>(options.count, op.size() - known.cols())};
   SearchResult found = search(op, known, wanted, search_settings(options, problem.stiffness->rows),
@@ -113,6 +104,30 @@ EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& option
   out.restarts = found.pairs.restarts;
   rayleigh_ritz(problem, found.pairs.vector, out);
   keep(out, 0, std::min(wanted.count, out.value.size()));
+}
+
+}  // namespace
+
+EigenResult solve_lowest(const EigenProblem& problem, const EigenOptions& options, const Sink& sink) {
+  EigenResult out;
+  out.engine = method_name(options);
+  if (problem.factor != nullptr) {
+    out.shift = options.negative_shift;
+    out.factor_nonzeros = problem.factor->fill().nonzeros;
+    search_lowest(problem, options, *problem.factor, out, sink);
+    return out;
+  }
+  sink.report("analysis");
+  const Stopwatch analysis;
+  CholeskyFactor factor = CholeskyFactor::with_order(*problem.stiffness, elimination_order(problem));
+  out.seconds_analyse = analysis.seconds();
+  out.factor_nonzeros = factor.fill().nonzeros;
+
+  sink.report("factorisation");
+  const Stopwatch factorisation;
+  out.shift = factor_definite(factor, problem, options);
+  out.seconds_factor = factorisation.seconds();
+  search_lowest(problem, options, factor, out, sink);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/stopwatch.hpp"
+#include "given_factor.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/multigrid.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -27,11 +28,16 @@ double eigenvalue_scale(const Body<Dim>& body, double largest) {
   return largest > 0.0 ? largest * std::pow(1.0 / (4.0 * length), 2) : 1.0;
 }
 
+/// Small beside the first elastic eigenvalue, large beside round-off of K.
+double shift_below(double scale) { return -1e-2 * scale; }
+
 struct Problem {
   LinearOperator action;
-  double bound = 0.0;                  ///< no |eigenvalue| of K lies above, N/m
-  Csr stiffness;                       ///< assembled for the engines that need it
-  std::optional<Multigrid> multigrid;  ///< for the engine inverse on grids
+  double bound = 0.0;                      ///< no |eigenvalue| of K lies above, N/m
+  Csr assembled;                           ///< for the engines that need it
+  const Csr* stiffness = nullptr;          ///< where there is a matrix
+  const CholeskyFactor* factor = nullptr;  ///< of K - shift M, at hand
+  std::optional<Multigrid> multigrid;      ///< for the engine inverse on grids
   Eigen::VectorXd mass;
   std::vector<Index> particle;
   Eigen::MatrixXd position;  ///< Dim x particles
@@ -200,18 +206,18 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
   sink.report("rigid modes");
   const Eigen::MatrixXd rigid = rigid_modes(body, problem.action, problem.mass);
   EigenOptions wanted = eigen_options(options, rigid.cols(), problem.mass.size(), scale);
-  wanted.negative_shift = -1e-2 * scale;
+  wanted.negative_shift = shift_below(scale);
   wanted.engine = result.choice.engine;
   wanted.edge = result.choice.edge;
   wanted.top = result.largest;
-  const EigenProblem eigen{
-      .stiffness = problem.stiffness.rows > 0 ? &problem.stiffness : nullptr,
-      .mass = &problem.mass,
-      .node_of_dof = problem.particle,
-      .known = rigid.cols() > 0 ? &rigid : nullptr,
-      .position = problem.position.size() > 0 ? &problem.position : nullptr,
-      .action = &problem.action,
-      .preconditioner = problem.multigrid ? &problem.multigrid->preconditioner : nullptr};
+  const EigenProblem eigen{.stiffness = problem.stiffness,
+                           .mass = &problem.mass,
+                           .node_of_dof = problem.particle,
+                           .known = rigid.cols() > 0 ? &rigid : nullptr,
+                           .position = problem.position.size() > 0 ? &problem.position : nullptr,
+                           .action = &problem.action,
+                           .preconditioner = problem.multigrid ? &problem.multigrid->preconditioner : nullptr,
+                           .factor = problem.factor};
 
   Pairs pairs;
   const bool want_rigid = !options.range || options.range->first <= 0.0;
@@ -265,7 +271,7 @@ template <int Dim>
 void solve_unsymmetric_body(ModalResult& result, const Body<Dim>& body, const Problem& problem,
                             const ModalOptions& options, double scale, const Sink& sink) {
   EigenOptions wanted = eigen_options(options, 0, problem.mass.size(), scale);
-  const EigenProblem eigen{&problem.stiffness, &problem.mass, problem.particle, nullptr};
+  const EigenProblem eigen{problem.stiffness, &problem.mass, problem.particle, nullptr};
   UnsymmetricEigenResult r = solve_unsymmetric(eigen, wanted, sink);
   result.status = r.status;
   result.message = r.message;
@@ -345,13 +351,14 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   const bool symmetric = result.asymmetry <= symmetric_to_round_off;
   result.choice = choose_solver(modal_size(body, symmetric), result.largest, wanted);
   if (needs_matrix(result.choice.engine)) {
-    problem.stiffness = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+    problem.assembled = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
+    problem.stiffness = &problem.assembled;
     problem.particle = particle_of_free_dof(body);
     problem.position = particle_positions(body);
-    problem.action = as_operator(problem.stiffness);
-    problem.bound = norm_inf(problem.stiffness);
-    result.nonzeros = problem.stiffness.nonzeros();
-    result.asymmetry = asymmetry(problem.stiffness);
+    problem.action = as_operator(problem.assembled);
+    problem.bound = norm_inf(problem.assembled);
+    result.nonzeros = problem.assembled.nonzeros();
+    result.asymmetry = asymmetry(problem.assembled);
   } else if (result.choice.engine == EigenEngine::inverse) {
     if (std::holds_alternative<GridBonds<Dim>>(body.bonds))
       problem.multigrid = multigrid(body, problem.action);
@@ -367,6 +374,27 @@ ModalResult solve_modes(const Body<Dim>& body, const ModalOptions& options, cons
   return result;
 }
 
+template <int Dim>
+double lowest_modes_shift(const Body<Dim>& body, const Eigen::VectorXd& mass) {
+  return shift_below(eigenvalue_scale(body, stiffness_bound(body) / mass.minCoeff()));
+}
+
+template <int Dim>
+ModalResult solve_modes_by(const Body<Dim>& body, const ModalOptions& options, const GivenFactor& given,
+                           const Eigen::VectorXd& mass, const Sink& sink) {
+  Problem problem;
+  problem.action = given.action;
+  problem.bound = stiffness_bound(body);
+  problem.stiffness = given.stiffness;
+  problem.factor = given.factor;
+  problem.mass = mass;
+  ModalResult result;
+  result.largest = problem.bound / mass.minCoeff();
+  result.choice.engine = EigenEngine::lanczos;
+  solve_symmetric_body(result, body, problem, options, given.shift / shift_below(1.0), sink);
+  return result;
+}
+
 Eigen::MatrixXd modal_assurance(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                 const Eigen::VectorXd& mass) {
   const Eigen::MatrixXd cross = a.transpose() * mass.asDiagonal() * b;
@@ -375,8 +403,14 @@ Eigen::MatrixXd modal_assurance(const Eigen::MatrixXd& a, const Eigen::MatrixXd&
   return cross.array().square() / (na * nb.transpose()).array();
 }
 
-template ModalResult solve_modes<1>(const Body<1>&, const ModalOptions&, const Sink&);
-template ModalResult solve_modes<2>(const Body<2>&, const ModalOptions&, const Sink&);
-template ModalResult solve_modes<3>(const Body<3>&, const ModalOptions&, const Sink&);
+#define PERIMODE_MODES(D)                                                                         \
+  template ModalResult solve_modes<D>(const Body<D>&, const ModalOptions&, const Sink&);          \
+  template double lowest_modes_shift<D>(const Body<D>&, const Eigen::VectorXd&);                  \
+  template ModalResult solve_modes_by<D>(const Body<D>&, const ModalOptions&, const GivenFactor&, \
+                                         const Eigen::VectorXd&, const Sink&)
+PERIMODE_MODES(1);
+PERIMODE_MODES(2);
+PERIMODE_MODES(3);
+#undef PERIMODE_MODES
 
 }  // namespace perimode

@@ -116,7 +116,7 @@ class Commands(ProgramTest):
 
     def test_help_lists_the_options(self):
         text = self.good("modal", "--help").stdout + self.good("--help").stdout
-        for option in ("--set", "--output", "--force", "--threads", "--quiet", "--version", "--matrices"):
+        for option in ("--set", "--output", "--force", "--threads", "--quiet", "--version", "--matrices", "--crack-growth"):
             self.assertIn(option, text)
 
     def test_a_new_case_is_complete(self):

@@ -153,6 +153,37 @@ class Results(ProgramTest):
             self.assertEqual([u[0][i] for i in range(0, 50, 10)], [0.0] * 5)  # the fixed layer
             self.assertEqual(max(map(abs, u[2])), 0.0)
 
+    def test_frequencies_of_a_growing_crack(self):
+        cracked = PLATE.replace("  horizon:", "  precracks: [{ from: [0.6, 0.0], to: [0.6, 0.3] }]\n  horizon:")
+        run = self.run_case(cracked, "--crack-growth", "3")
+        self.assertEqual(sorted(p.name for p in (self.folder / "out/plate").iterdir()), ["crack_growth.csv", "summary.json"])
+        table = rows(self.folder / "out/plate/crack_growth.csv")
+        self.assertEqual(list(table[0]), ["step", "fraction", "crack_length", "cut_bonds", "factor", "mode", "frequency_hz",
+                                          "relative_change", "residual"])
+        self.assertEqual([(int(r["step"]), int(r["mode"])) for r in table], [(k, m) for k in range(4) for m in range(1, 7)])
+        summary = json.loads((self.folder / "out/plate/summary.json").read_text())
+        self.assertEqual((summary["analysis"], summary["status"], len(summary["crack_growth"])), ("modal", "done", 4))
+        for r in table:
+            step = summary["crack_growth"][int(r["step"])]
+            self.assertIn(r["factor"], ("updated", "fresh"))
+            self.assertEqual(int(r["cut_bonds"]), step["cut_bonds"])
+            self.assertAlmostEqual(float(r["crack_length"]), 0.1 * int(r["step"]), delta=1e-15)
+            self.assertEqual(float(r["frequency_hz"]), step["frequency_hz"][int(r["mode"]) - 1])
+            self.assertLessEqual(float(r["relative_change"]), 1e-12)
+        self.assertIn("cut bonds", run.stdout)
+        self.assertGreaterEqual(len(run.stdout.splitlines()), 5)
+        # The last line is the case itself, the first the case without its crack.
+        for text, step in ((cracked, 3), (PLATE, 0)):
+            self.run_case(text, "--force")
+            for mode, frequency in zip(rows(self.folder / "out/plate/modes.csv"), summary["crack_growth"][step]["frequency_hz"]):
+                self.assertAlmostEqual(float(mode["frequency_hz"]) / frequency, 1.0, delta=1e-9)
+
+    def test_cracks_that_cannot_grow(self):
+        self.write("case.yaml", PLATE)
+        self.assertIn("expected pre-cracks that grow", self.complaint(self.perimode("modal", "case.yaml", "--crack-growth", "3")))
+        self.write("case.yaml", PLATE.replace("  horizon:", "  precracks: [{ from: [2, 0], to: [2, 1] }]\n  horizon:"))
+        self.assertIn("case.yaml:", self.complaint(self.perimode("modal", "case.yaml", "--crack-growth", "3")))
+
     def test_matrices(self):
         self.run_case(PLATE, "--matrices")
         self.assertEqual(sorted(p.name for p in (self.folder / "out/plate").iterdir()), ["K.mtx", "M.mtx", *FILES])

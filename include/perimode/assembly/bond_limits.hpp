@@ -26,24 +26,28 @@ struct FirstBreak {
   /// The bond of the smallest factor and all that are within `tie` of their critical stretch there,
   /// s >= s_c (1 - tie), images included (with_images).
   std::vector<BondRef> bonds;
-  double worst = 0.0;  ///< largest s/s_c at `factor`: above 1 + tie, bonds with s_1 <= 0 are beyond theirs
+  /// Largest s/s_c at `factor` (infinity: at lambda = 0; 0: nothing is stretched): above 1 + tie, bonds with
+  /// s_1 <= 0 are beyond theirs.
+  double worst = 0.0;
   /// Strain energies of all alive bonds, J: those of u_0, of both ((1/2) sum_b k l^2 s_0 s_1), of u_1.
   /// U(lambda) = energy[0] + 2 lambda energy[1] + lambda^2 energy[2].
   std::array<double, 3> energy = {};
 };
 
 /// Displacements of all particle dofs (m); `u_0` may be empty (zero). Ghosts follow by the linear part of the
-/// boundary's map: walls of symmetric boundaries give no values. The same for any number of threads. Cost
-/// O(bonds), one pass, and one more over the particles that hold the ties.
+/// boundary's map: walls of symmetric boundaries give no values. The same for any number of threads; a tie
+/// below 1e-12 counts as 1e-12. Cost O(bonds): one pass, with u_0 a second one at `factor`, and one by one
+/// the bonds of the particles near the ties.
 template <int Dim>
 [[nodiscard]] FirstBreak first_break(const Body<Dim>& body, const BondLimits& limits,
                                      const Eigen::VectorXd& u_0, const Eigen::VectorXd& u_1, double tie);
 
 /// Bonds beyond their critical stretch, s > s_c (1 + 1e-12), with s/s_c; images included, equal ones next to
-/// each other. The worst `most` (0: all) by s/s_c, those within `tie` of the last one included.
+/// each other. The worst `most` (0: all) by s/s_c, a bond and its image counted once, those within `tie` of
+/// the last one included.
 struct OverstretchedBonds {
   std::vector<BondRef> bonds;
-  double worst = 0.0;   ///< largest s/s_c of all alive breakable bonds
+  double worst = 0.0;   ///< largest s/s_c of all alive breakable bonds; 0: none is stretched
   double energy = 0.0;  ///< strain energy of all alive bonds, J
 };
 template <int Dim>

@@ -14,6 +14,8 @@
 
 namespace perimode {
 
+class CholeskyFactor;
+
 /// K x = lambda M x with symmetric K >= 0 and M = diag(mass) > 0.
 /// `known` (n x r, M-orthonormal) spans a part of the null space of K that the caller has found
 /// (rigid modes): it is deflated, and the solvers return only modes orthogonal to it.
@@ -29,6 +31,9 @@ struct EigenProblem {
   const LinearOperator* action = nullptr;
   /// inverse: approximates (K + a little M)^-1 for conjugate gradients; null: none.
   const LinearOperator* preconditioner = nullptr;
+  /// lanczos, arpack, lowest modes: a factor of K - negative_shift M at hand, which is then not made; the
+  /// shift has to be given. `stiffness` gives the number of rows, and the matrix where inertia is asked for.
+  const CholeskyFactor* factor = nullptr;
 };
 
 /// lanczos, arpack: a factor of K - sigma M. dense: LAPACK. chebyshev: block Lanczos on a Chebyshev
