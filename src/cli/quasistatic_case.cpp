@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/fracture/crack_area.hpp"
 
@@ -22,6 +24,12 @@ QuasistaticOptions quasistatic_options(const Case& input, const Body<Dim>& body)
          "move it between particles that are bonded, or remove it", input.model.precracks.front().where});
   }
   QuasistaticOptions options = *input.quasistatic;
+  const std::vector<double>& given = body.boundary.given;
+  const bool moved = std::any_of(given.begin(), given.end(), [](double g) { return g != 0.0; });
+  if (options.griffith && !options.loads.empty() && moved) {
+    invalid_input({"loads or prescribed motion alone for the Griffith load", "both",
+                   "leave one of them out, or set analysis.quasistatic.griffith to false", options.where});
+  }
   options.critical_stretch = critical_stretches(input.model, body);
   options.area = crack_area_scale(input.model, body);
   return options;

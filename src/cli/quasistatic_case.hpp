@@ -8,7 +8,8 @@
 namespace perimode::cli {
 
 /// Options of a case's quasi-static run, with what the body says of it: critical stretches, the scale of
-/// crack areas. Throws invalid_input: kinematics other than linear, pre-cracks that cut no bond.
+/// crack areas. Throws invalid_input: kinematics other than linear, pre-cracks that cut no bond, a Griffith
+/// load of loads and given motion at once.
 template <int Dim>
 [[nodiscard]] QuasistaticOptions quasistatic_options(const Case& input, const Body<Dim>& body);
 

@@ -5,7 +5,7 @@
 
 #include "commands.hpp"
 #include "machine.hpp"
-#include "perimode/fracture/griffith_load.hpp"
+#include "perimode/fracture/griffith.hpp"
 #include "perimode/io/case.hpp"
 #include "quasistatic_case.hpp"
 #include "quasistatic_output.hpp"
@@ -96,7 +96,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
     if (options.griffith) {
       sink.report("Griffith load");
       facts.griffith =
-          griffith_load(body, options, crack_increment(input.model, body), facts.fracture_energy);
+          griffith_load(body, options.loads, crack_increment(input.model, body), facts.fracture_energy);
     }
     result =
         run_quasistatic(body, options, observer_of(body, options, files, console), files.resumed(), sink);

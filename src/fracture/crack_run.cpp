@@ -117,7 +117,10 @@ bool CrackRun<Dim>::solve(const std::vector<Driving>& drivings, std::vector<Eige
     if (equilibrium_->pins().size() == before) break;  // nothing to hold
   }
   result_.worst_residual = std::max(result_.worst_residual, outcome.residual);
-  if (outcome.singular || !outcome.converged || !q_.allFinite()) {
+  // Where round-off holds iterations up short of their tolerance, that is all there is to be had.
+  constexpr double good = 1e-9;
+  const bool solved = outcome.converged || outcome.residual <= good;
+  if (outcome.singular || !solved || !q_.allFinite()) {
     result_.message =
         outcome.singular
             ? "the bonds left do not hold the body's shape, and no motion was found to hold"
@@ -285,9 +288,11 @@ void CrackRun<Dim>::hold_or_remove(const std::vector<Index>& piece, const std::v
 template <int Dim>
 void CrackRun<Dim>::pin_mechanism(Index dof) {
   if (dof < 0) {
-    for (const LooseMotion& loose : loose_motions(*body_, *equilibrium_, problem_.mass))
-      hold_or_remove(loose.particles, loose.dofs);
-    return;
+    const std::vector<LooseMotion> rigid = loose_motions(*body_, *equilibrium_, problem_.mass);
+    for (const LooseMotion& loose : rigid) hold_or_remove(loose.particles, loose.dofs);
+    if (!rigid.empty()) return;
+    dof = equilibrium_->mechanism_dof();
+    if (dof < 0) return;
   }
   if (equilibrium_->pinned(dof)) return;
   equilibrium_->pin({dof});

@@ -123,6 +123,15 @@ void Equilibrium<Dim>::rebuild() {
 }
 
 template <int Dim>
+Index Equilibrium<Dim>::mechanism_dof() const {
+  if (body_->boundary.free > most_dofs_to_order[Dim - 1]) return -1;
+  const Csr k = free_matrix(*body_, *pins_);
+  CholeskyFactor factor = CholeskyFactor::with_order(k, elimination_order(*body_, k));
+  const bool definite = factor.factorize(k, 0.0, Eigen::VectorXd::Zero(k.rows)) == FactorStatus::done;
+  return definite ? -1 : factor.failed_dof();
+}
+
+template <int Dim>
 LinearOperator Equilibrium<Dim>::preconditioner() const {
   if (Dim == 2 && body_->particles.grid && pins_->empty()) return multigrid(*body_, product_).preconditioner;
   std::vector<double> blocks = diagonal_blocks(*body_);

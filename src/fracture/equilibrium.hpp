@@ -58,6 +58,9 @@ class Equilibrium {
   void break_bonds(std::span<const BondRef> bonds);
   /// Springs as stiff as the intact body is at these dofs; those held already are left alone.
   void pin(const std::vector<Index>& dofs);
+  /// A dof of a motion that stretches no bond, found by a factor that is made for it; -1: none, or the body
+  /// is too large for one. For iterations, which say no more than that there is one.
+  [[nodiscard]] Index mechanism_dof() const;
   /// Everything anew from the body as it is: what a run resumed here starts from.
   void rebuild();
 

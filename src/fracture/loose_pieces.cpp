@@ -28,6 +28,7 @@ std::vector<Index> LooseSearch<Dim>::unheld_dofs(const Body<Dim>& body, const Eq
     number[a] = body.boundary.free_number[static_cast<std::size_t>(i) * Dim + a];
     if (number[a] >= 0) spring = std::max(spring, equilibrium.spring(number[a]));
   }
+  if (!(spring > 0.0)) return {};  // nothing of it is free
   for (int a = 0; a < Dim; ++a) {
     if (number[a] >= 0 && !equilibrium.pinned(number[a])) continue;
     block.row(a).setZero();

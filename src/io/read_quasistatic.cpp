@@ -119,6 +119,10 @@ void read_quasistatic(const Cursor& cursor, InputFiles& files, Case& result) {
           "it is the load at which the first of body.precracks grows: add one, or remove the key");
     }
   }
+  if (options.griffith && !options.dead_loads.empty()) {
+    section.find("griffith")
+        ->complain("false beside dead_loads", "the load of Griffith's criterion is that of loads alone");
+  }
   if (const auto every = section.find("fields_every")) options.fields_every = every->integer(1, "100");
   if (const auto every = section.find("checkpoint_every"))
     options.checkpoint_every = every->integer(1, "1000");

@@ -8,56 +8,13 @@
 #include <limits>
 #include <utility>
 
+#include "column_products.hpp"
 #include "core/stopwatch.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/linalg/conjugate_gradients.hpp"
 
 namespace perimode {
 namespace {
-
-void append(const SparseColumns& from, SparseColumns& to) {
-  const Offset shift = to.start.back();
-  for (std::size_t c = 1; c < from.start.size(); ++c) to.start.push_back(shift + from.start[c]);
-  to.row.insert(to.row.end(), from.row.begin(), from.row.end());
-  to.value.insert(to.value.end(), from.value.begin(), from.value.end());
-}
-
-SparseColumns no_columns(Index rows) {
-  SparseColumns out;
-  out.rows = rows;
-  return out;
-}
-
-/// Where c c^T of every column meets the entries of A: per pair of rows, those with a zero left out.
-std::vector<Offset> places_of_products(const SparseColumns& columns, const Csr& a) {
-  std::vector<Offset> out;
-  for (Index c = 0; c < columns.count(); ++c)
-    for (Offset i = columns.start[c]; i < columns.start[c + 1]; ++i) {
-      const Index row = columns.row[i];
-      const auto first = a.column.begin() + a.row_start[row], last = a.column.begin() + a.row_start[row + 1];
-      for (Offset j = columns.start[c]; j < columns.start[c + 1]; ++j) {
-        if (columns.value[i] == 0.0 || columns.value[j] == 0.0) continue;
-        const auto at = std::lower_bound(first, last, columns.row[j]);
-        if (at == last || *at != columns.row[j])
-          invalid_input({"changes between dofs that share an entry of the matrix",
-                         fmt::format("dofs {} and {}", row, columns.row[j]),
-                         "make the solver with the widest pattern it will meet",
-                         {}});
-        out.push_back(at - a.column.begin());
-      }
-    }
-  return out;
-}
-
-/// A += sign c c^T, column by column, at these places.
-void add_products(const SparseColumns& columns, double sign, const std::vector<Offset>& places, Csr& a) {
-  auto place = places.begin();
-  for (Index c = 0; c < columns.count(); ++c)
-    for (Offset i = columns.start[c]; i < columns.start[c + 1]; ++i)
-      for (Offset j = columns.start[c]; j < columns.start[c + 1]; ++j)
-        if (columns.value[i] != 0.0 && columns.value[j] != 0.0)
-          a.value[*place++] += sign * columns.value[i] * columns.value[j];
-}
 
 /// A time measured again and again; the last half counts as much as all before.
 struct MeasuredTime {
@@ -81,11 +38,20 @@ struct StaleIterations {
   }
 };
 
-constexpr double start_share = 0.002;  // of a factorisation: an updated column before any was measured
+constexpr double start_share = 0.001;       // of a factorisation: an updated column before any was measured
+constexpr double too_small_to_time = 5e-3;  // s, a factorisation beside which no choice pays
 constexpr double worse_than_fresh = 10.0;
 constexpr double always_fine = 1e-12;  // a residual that needs no refinement
 constexpr int most_refinements = 2;
 constexpr double hopeless = 1e-6;  // a residual that is no solution
+
+/// The row with the entry of largest size; -1 where some are no numbers.
+Index largest_row(const Eigen::MatrixXd& x) {
+  if (!x.allFinite() || x.size() == 0) return -1;
+  Eigen::Index row = 0, column = 0;
+  x.cwiseAbs().maxCoeff(&row, &column);
+  return static_cast<Index>(row);
+}
 
 }  // namespace
 
@@ -171,7 +137,7 @@ struct UpdatedSolver::Implementation {
     const double update = lacking * each + solution.seconds;
     const double stale = stale_iterations.predict(lacking) * (solution.seconds + product.seconds);
     const double again = factor_time + solution.seconds;
-    if (update <= std::min(stale, again)) return SolveWay::update;
+    if (factor_time < too_small_to_time || update <= std::min(stale, again)) return SolveWay::update;
     return stale < again ? SolveWay::stale : SolveWay::refactor;
   }
 
@@ -313,6 +279,11 @@ struct UpdatedSolver::Implementation {
       }
     }
     if (!done) solve_freshly(b, x, outcome);
+    if (usable && !(outcome.residual <= hopeless)) {
+      // A fresh factor whose vanishing pivot rounding has kept positive: x is the motion it belongs to.
+      usable = false;
+      outcome.dof = largest_row(x);
+    }
     outcome.singular = !usable;
     if (outcome.singular) {
       outcome.converged = false;
@@ -322,9 +293,7 @@ struct UpdatedSolver::Implementation {
     }
     outcome.dof = -1;
     outcome.message.clear();
-    outcome.converged = outcome.residual <= hopeless;
-    if (!outcome.converged)
-      outcome.message = fmt::format("round-off holds the residual at {:.3g}", outcome.residual);
+    outcome.converged = true;
   }
 };
 

@@ -109,6 +109,7 @@ Eigen::MatrixXd rigid_modes(const Body<Dim>& body, const LinearOperator& stiffne
       basis.conservativeResize(R, basis.cols() + 1);
       basis.col(basis.cols() - 1) = unit * metric.eigenvectors().col(k) / std::sqrt(metric.eigenvalues()[k]);
     }
+    if (basis.cols() == 0) continue;  // nothing of this piece is free
     const Eigen::MatrixXd energy = basis.transpose() * force[p] * basis;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> null(energy);
     // |D^-1 K q| / |q|, D the stiffness of every particle's own bonds: about (share of rows at the

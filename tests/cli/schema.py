@@ -77,7 +77,7 @@ analysis:
     loose: remove
     solver: update
     tolerance: 1.0e-9
-    griffith: true
+    griffith: false
     fields_every: 100
     checkpoint_every: 500
 output: { directory: out/plate, fields: [displacement, velocity, damage, strain, stress, energy] }
@@ -98,7 +98,7 @@ analysis: { modal: { range: [0, 5000] }, static: , transient: { method: newmark,
 body: { dimension: 3, particles: { grid: { lower: [0, 0, 0], upper: [1, 1, 1], spacing: 0.1 } }, horizon: { ratio: 2 },
         precracks: [ { polygon: [[0, 0, 0.5], [0.5, 0, 0.5], [0.5, 1, 0.5]] } ] }
 material: { youngs_modulus: 68.0e+9, density: 2700 }
-analysis: { modal: , quasistatic: , transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
+analysis: { modal: , quasistatic: { griffith: true }, transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
 """,
     "cloud": """
 title: cloud
@@ -108,6 +108,7 @@ materials: { core: { density: 1000 } }
 boundary: [ { fix: [x], at: { face: x-, depth: 0.1 } } ]
 analysis:
   modal: { modes: 2 }
+  quasistatic:
   transient: { method: modal, modes: 2, end: 1, damping: { rayleigh: [0, 0] },
                initial: { displacement: { mode: { file: modes.exo, number: 1, scale: 1.0e-3 } } } }
 """,

@@ -6,14 +6,14 @@
 
 #include "perimode/assembly/body.hpp"
 #include "perimode/assembly/breakable_stiffness.hpp"
+#include "perimode/boundary/loads.hpp"
 #include "perimode/geometry/crack.hpp"
 
 namespace perimode {
 
-/// The load at which a crack grows by Griffith's criterion, from two compliances: with the energies U of a
-/// unit load factor before and after the crack is longer by one increment,
-///   G = (U_after - U_before) / area under loads (the other sign under given motion alone),
-///   load_factor = sqrt(G0 / G).
+/// The load at which a crack grows by Griffith's criterion, from two static solutions: with the potential
+/// energies Pi = U - f . u at load factor 1 before and after the crack is longer by one increment,
+///   G = (Pi_before - Pi_after) / area,  load_factor = sqrt(G0 / G).
 /// Converges to linear elastic fracture mechanics as the horizon shrinks (docs/theory/14_quasistatic.md).
 struct GriffithLoad {
   double load_factor = 0.0;
@@ -44,5 +44,12 @@ template <int Dim>
 /// invalid_input where no block has either.
 template <int Dim>
 [[nodiscard]] double fracture_energy_of(const Model& model, const Body<Dim>& body);
+
+/// The Griffith load of a body whose crack grows by `increment` under `loads`; without loads, under its given
+/// motion. Throws invalid_input: an increment that cuts no bond, and as solve_static. Cost: two static
+/// solutions.
+template <int Dim>
+[[nodiscard]] GriffithLoad griffith_load(const Body<Dim>& body, const std::vector<Load>& loads,
+                                         const Crack<Dim>& increment, double fracture_energy);
 
 }  // namespace perimode

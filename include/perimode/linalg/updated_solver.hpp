@@ -37,7 +37,8 @@ struct SolveOutcome {
   bool converged = true;
   std::string message;    ///< why not
   bool singular = false;  ///< A is not positive definite
-  Index dof = -1;         ///< singular, with a factor: the dof whose pivot vanished
+  Index dof = -1;  ///< singular, with a factor: the dof whose pivot vanished, or that moves most in the
+                   ///< motion A does not hold
 };
 
 /// What all solutions of one way came to.

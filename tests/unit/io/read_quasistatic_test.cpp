@@ -112,6 +112,7 @@ TEST(ReadQuasistatic, WrongValuesAreRefusedWhereTheyStand) {
       {"{ dead_loads: [ { force: [1, 0], time: { step: 1 } } ] }", "give control: steps"},
       {"{ control: steps, dead_loads: [] }", "put it into loads"},
       {"{ control: steps, griffith: false }", "control: event"},
+      {"{ griffith: true, dead_loads: [ { force: [1, 0] } ] }", "dead_loads"},
       {"{ steps: 4 }", "give control: steps"},
       {"{ end: 4 }", "give control: steps"},
       {"{ control: event, break_at_once: 4 }", "give control: steps"},

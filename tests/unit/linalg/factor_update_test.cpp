@@ -183,7 +183,7 @@ Eigen::VectorXd solve_by_updown(const Problem& p, const SparseColumns& removed, 
   right.xtype = CHOLMOD_REAL;
   right.dtype = CHOLMOD_DOUBLE;
   cholmod_dense* x = cholmod_solve(CHOLMOD_A, l, &right, &common);
-  const Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(x->x), b.size());
+  Eigen::VectorXd out = Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(x->x), b.size());
   cholmod_free_dense(&x, &common);
   cholmod_free_sparse(&permuted, &common);
   cholmod_free_sparse(&c, &common);

@@ -69,6 +69,11 @@ TEST(ScalarCsr, StrikesOutDofsAndKeepsOnlyDiagonalZeros) {
   EXPECT_EQ(scalar.column[0], 0);
   EXPECT_EQ(scalar.value[0], 0.0);
   EXPECT_NE(scalar.column[1], 1);
+
+  const Csr roomy = scalar_csr(k, number, Zeros::keep);
+  EXPECT_EQ(test::dense(roomy), test::dense(scalar));
+  EXPECT_EQ(roomy.column[1], 1);
+  EXPECT_EQ(roomy.nonzeros(), scalar.nonzeros() + 1);
 }
 
 TEST(Csr, MultipliesVectorsAndBlocksOfVectors) {
