@@ -65,13 +65,12 @@ struct PerEvent {
   [[nodiscard]] double all() const { return solution + search + rest; }
 };
 
+/// The first factor, made in the set-up, is that of the first event.
 PerEvent per_event(const QuasistaticResult& result, std::int64_t events) {
   double solutions = 0.0;
   for (const WayTotals& way : result.ways) solutions += way.seconds;
-  const double all = result.seconds_total - result.seconds_setup;
+  const double all = result.seconds_total - result.seconds_setup + result.factor_seconds;
   const auto n = static_cast<double>(events);
-  // The first factor is made in the set-up.
-  solutions -= result.factor_seconds;
   return {solutions / n, result.seconds_search / n, (all - solutions - result.seconds_search) / n};
 }
 
