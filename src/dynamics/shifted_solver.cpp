@@ -106,13 +106,6 @@ std::string name(const Choice& choice, bool symmetric) {
   return fmt::format("{}: {}", solver, choice.reason);
 }
 
-/// What is no number would be refused by a solver; the run has to end as unstable instead.
-bool hopeless(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  if (b.allFinite()) return false;
-  x.setConstant(b.size(), std::numeric_limits<double>::quiet_NaN());
-  return true;
-}
-
 template <int Dim>
 ShiftedSolve by_factor(const Body<Dim>& body, bool symmetric, const Eigen::VectorXd& shift) {
   const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number);
@@ -195,6 +188,12 @@ Csr shifted_matrix(const Body<Dim>& body, const Eigen::VectorXd& shift) {
 }
 
 }  // namespace
+
+bool hopeless(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  if (b.allFinite()) return false;
+  x.setConstant(b.size(), std::numeric_limits<double>::quiet_NaN());
+  return true;
+}
 
 template <int Dim>
 ShiftedSolver make_shifted_solver(const Body<Dim>& body, const LinearOperator& stiffness, bool symmetric,

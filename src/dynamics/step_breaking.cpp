@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,6 +15,10 @@
 namespace perimode {
 
 namespace {
+
+/// Columns between solutions from which on a fresh factor costs less than its update, about
+/// (docs/theory/14_quasistatic.md): counted, since what is timed does not repeat.
+constexpr Index most_updated = 1000;
 
 template <int Dim>
 class BodyBreaking final : public StepBreaking {
@@ -121,7 +124,10 @@ class BodyBreaking final : public StepBreaking {
     if (solver_) {
       SparseColumns none;
       none.rows = body_->boundary.free;
-      solver_->change(none, bond_columns(*body_, std::span<const BondRef>(bonds)));
+      const SparseColumns lost = bond_columns(*body_, std::span<const BondRef>(bonds));
+      solver_->change(none, lost);
+      pending_ += lost.count();
+      if (options_.factor && pending_ > most_updated) solver_->refresh();
     }
     stiffness_.break_bonds(bonds);
     const bool moved = std::any_of(shapes_.begin(), shapes_.end(), [&](const GivenShape& shape) {
@@ -147,16 +153,14 @@ class BodyBreaking final : public StepBreaking {
   }
 
   int solve(const Eigen::VectorXd& b, const Eigen::VectorXd& guess, Eigen::VectorXd& x) {
-    if (!b.allFinite()) {
-      x.setConstant(b.size(), std::numeric_limits<double>::quiet_NaN());
-      return 0;
-    }
+    if (hopeless(b, x)) return 0;
     if (!solver_) {
       solver_.emplace(updated_shifted_solver(*body_, as_operator(motion_->stiffness), shift_, options_.factor,
                                              options_.tolerance));
     }
     Eigen::MatrixXd solution = guess;
     const SolveOutcome outcome = solver_->solve(b, solution);
+    pending_ = 0;
     if (outcome.singular || (!outcome.converged && !(outcome.residual <= 10.0 * options_.tolerance)))
       throw Error(ErrorKind::solver_failure, "an implicit step was not solved: " + outcome.message);
     x = solution;
@@ -170,6 +174,7 @@ class BodyBreaking final : public StepBreaking {
   std::vector<GivenShape> shapes_;
   Eigen::VectorXd shift_;
   std::optional<UpdatedSolver> solver_;  ///< made at the first solution, and after a save
+  Index pending_ = 0;                    ///< columns that changed since the last solution
   std::vector<BondRef> now_;             ///< broken in this step
   Eigen::VectorXd k_;                    ///< of these, N/m
   Offset broken_ = 0;

@@ -26,6 +26,10 @@ template <int Dim>
                                                 bool symmetric, ImplicitSolver which, double ratio,
                                                 double tolerance, std::string& description);
 
+/// What is no number would be refused by a solver; the run has to end as unstable instead. true: b is none,
+/// and so is x now.
+[[nodiscard]] bool hopeless(const Eigen::VectorXd& b, Eigen::VectorXd& x);
+
 /// factor or cg, as make_shifted_solver chooses.
 template <int Dim>
 [[nodiscard]] ImplicitSolver choose_shifted_solver(const Body<Dim>& body, bool symmetric,
