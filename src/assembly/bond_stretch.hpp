@@ -54,7 +54,8 @@ void add_stretch(const Body<Dim>& body, const InverseLimit<Dim>& inverse, Index 
                  const Eigen::VectorXd* u_0, const Eigen::VectorXd& u_1, StretchSums& sums) {
   const double e_1 = elongation(body, i, end, u_1);
   const double rate = inverse(i, end) / end.length;
-  const double force = share_of(body, end) * bond_stiffness(body, i, end) * e_1;
+  const double stiffness = share_of(body, end) * bond_stiffness(body, i, end);
+  const double force = stiffness * e_1;
   sums.energy[2] += 0.5 * force * e_1;
   if (u_0 == nullptr) {
     sums.worst = std::max(sums.worst, rate * e_1);
@@ -63,7 +64,7 @@ void add_stretch(const Body<Dim>& body, const InverseLimit<Dim>& inverse, Index 
   const double e_0 = elongation(body, i, end, *u_0);
   if (rate * e_1 > 0.0) sums.factor = std::min(sums.factor, (1.0 - rate * e_0) / (rate * e_1));
   sums.energy[1] += 0.5 * force * e_0;
-  sums.energy[0] += 0.5 * share_of(body, end) * bond_stiffness(body, i, end) * (e_0 * e_0);
+  sums.energy[0] += 0.5 * stiffness * (e_0 * e_0);
 }
 
 /// Sums per chunk of particles over the bonds of a grid, those between particles from their lower end. With

@@ -29,6 +29,7 @@ Model at_fraction(Model m, double fraction) {
   m.precracks.clear();
   for (const auto& crack : cracks) {
     std::vector<Coordinates> points;
+    points.reserve(crack.corner.size());
     for (const auto& corner : crack.corner) points.emplace_back(corner.begin(), corner.end());
     add_crack(m, points);
   }
