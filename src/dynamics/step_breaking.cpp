@@ -17,7 +17,7 @@ namespace perimode {
 namespace {
 
 /// Columns between solutions from which on a fresh factor costs less than its update, about
-/// (docs/theory/14_quasistatic.md): counted, since what is timed does not repeat.
+/// (docs/theory/15_updates.md): counted, since what is timed does not repeat.
 constexpr Index most_updated = 1000;
 
 template <int Dim>

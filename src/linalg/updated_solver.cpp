@@ -27,7 +27,7 @@ struct MeasuredTime {
 };
 
 /// Iterations with a factor that lacks k columns grow like k^0.4, and no more than k (docs/theory/
-/// 14_quasistatic.md); `scale` follows what was counted.
+/// 15_updates.md); `scale` follows what was counted.
 struct StaleIterations {
   double scale = 3.2;
   [[nodiscard]] double predict(double missing) const {

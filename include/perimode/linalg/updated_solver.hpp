@@ -50,7 +50,7 @@ struct WayTotals {
 };
 
 /// Solves A x = b for a symmetric positive definite A that loses (or gains) a few rank-one terms between
-/// solutions. With a factor, the way is the cheapest by a cost model (docs/theory/14_quasistatic.md): the
+/// solutions. With a factor, the way is the cheapest by a cost model (docs/theory/15_updates.md): the
 /// measured times of the first factor and of a solution, the measured cost of an updated column, the
 /// iterations a stale factor takes for the changes it lacks. Every solution's residual is checked; one that
 /// is worse than 10 times that of the last fresh factor (and 1e-12) is refined, then refactored. Moves, does
