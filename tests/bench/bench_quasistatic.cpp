@@ -2,25 +2,29 @@
 // Full separation of a plate of width 1 and height 2 with an edge crack of 0.25, n particles along its width,
 // pulled open by tractions, event by event (E = 1e5 Pa, plane strain, inverse-distance kernel, horizon of
 // three spacings).
-//   total_s     all of the run
-//   event       of an event: its solution (update and substitution), its search, the rest, each in
-//   factorisations
-//               of the run (factor_s, the numbers alone), and the whole of it in s
-//   ratio       an event with a fresh factor, found in sample_events events from the beginning, where the run
-//   is
-//               half way and near its end, over an event of the run: what the whole run would take if the
-//               factor were made anew at every event, extrapolated, over what it takes; set-up left out of
-//               both
-// Wall time; one thread unless PERIMODE_BENCH_THREADS says otherwise.
+//   total_s     all of the run, wall time; shares of it: solutions (updates and substitutions), search
+//   event_s     CPU time of an event, the mean of the run; event: the same in factorisations (factor_s, CPU
+//   time of
+//               the numbers alone, the least of three)
+//   fresh_s     CPU time of an event whose factor is made anew, the mean of 4 from the beginning, from half
+//   way
+//               and from near the end of the same run
+//   ratio       fresh_s/event_s: what the run would take with a factor for every event, extrapolated from
+//   these
+//               samples, over what it takes
+// One thread unless PERIMODE_BENCH_THREADS says otherwise.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cstdlib>
-#include <optional>
+#include <ctime>
 #include <string>
 #include <vector>
 
+#include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/fracture/quasistatic.hpp"
+#include "perimode/linalg/factor.hpp"
 #include "perimode/linalg/threads.hpp"
 #include "support/models.hpp"
 
@@ -60,18 +64,45 @@ QuasistaticOptions pull(const Model& model, const Body<2>& body, int n) {
   return options;
 }
 
-struct PerEvent {
-  double solution = 0.0, search = 0.0, rest = 0.0;
-  [[nodiscard]] double all() const { return solution + search + rest; }
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Instants of the rows of a run, CPU time.
+struct Rows {
+  double first = 0.0, last = 0.0;
+  Index count = 0;
+  void see() {
+    last = cpu_seconds();
+    if (count++ == 0) first = last;
+  }
+  [[nodiscard]] double per_event() const { return (last - first) / (count - 1); }
 };
 
-/// The first factor, made in the set-up, is that of the first event.
-PerEvent per_event(const QuasistaticResult& result, std::int64_t events) {
-  double solutions = 0.0;
-  for (const WayTotals& way : result.ways) solutions += way.seconds;
-  const double all = result.seconds_total - result.seconds_setup + result.factor_seconds;
-  const auto n = static_cast<double>(events);
-  return {solutions / n, result.seconds_search / n, (all - solutions - result.seconds_search) / n};
+double factorisation(const Body<2>& body) {
+  const Csr k = scalar_csr(assemble_stiffness(body), body.boundary.free_number, Zeros::keep);
+  CholeskyFactor factor = CholeskyFactor::with_order(
+      k, dissection_order(k, particle_of_free_dof(body), particle_positions(body)));
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(k.rows);
+  double least = 1e300;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const double start = cpu_seconds();
+    benchmark::DoNotOptimize(factor.factorize(k, 0.0, none));
+    least = std::min(least, cpu_seconds() - start);
+  }
+  return least;
+}
+
+/// CPU time of events with fresh factors, from a state of the run on.
+double fresh_event(const Model& model, int n, const IntegratorState* start) {
+  constexpr std::int64_t sample = 4;
+  Body<2> body = build_body<2>(model);
+  QuasistaticOptions options = pull(model, body, n);
+  options.solver.only = SolveWay::refactor;
+  options.stop.events = (start == nullptr ? 0 : start->step) + sample + 1;
+  Rows rows;
+  QuasistaticObserver<2> observer;
+  observer.row = [&](const QuasistaticRow&) { rows.see(); };
+  (void)run_quasistatic<2>(body, options, observer, start);
+  return rows.per_event();
 }
 
 void separation(benchmark::State& state) {
@@ -79,46 +110,39 @@ void separation(benchmark::State& state) {
   set_threads(threads == nullptr ? 1 : std::atoi(threads));
   const int n = static_cast<int>(state.range(0));
   const Model model = edge_crack(n);
+  const double factor = factorisation(build_body<2>(model));
   QuasistaticResult run;
+  Rows rows;
   std::vector<IntegratorState> states;
   for (auto _ : state) {
     Body<2> body = build_body<2>(model);
     QuasistaticOptions options = pull(model, body, n);
     options.checkpoint_every = n;
     QuasistaticObserver<2> observer;
+    observer.row = [&](const QuasistaticRow&) { rows.see(); };
     observer.checkpoint = [&](const IntegratorState& s) { states.push_back(s); };
     run = run_quasistatic<2>(body, options, observer);
   }
-  constexpr std::int64_t sample_events = 4;
-  PerEvent fresh;
-  std::vector<const IntegratorState*> starts = {nullptr};
-  if (!states.empty()) starts = {nullptr, &states[states.size() / 2], &states.back()};
-  for (const IntegratorState* start : starts) {
-    Body<2> body = build_body<2>(model);
-    QuasistaticOptions options = pull(model, body, n);
-    options.solver.only = SolveWay::refactor;
-    options.stop.events = (start == nullptr ? 0 : start->step) + sample_events;
-    const QuasistaticResult sample = run_quasistatic<2>(body, options, {}, start);
-    const PerEvent each = per_event(sample, sample_events);
-    fresh.solution += each.solution / static_cast<double>(starts.size());
-    fresh.search += each.search / static_cast<double>(starts.size());
-    fresh.rest += each.rest / static_cast<double>(starts.size());
-  }
-  const PerEvent event = per_event(run, run.events);
-  const double factor = run.factor_seconds;
-  if (run.status != QuasistaticStatus::separated) state.SkipWithError(run.message.c_str());
+  if (run.status != QuasistaticStatus::separated || states.empty())
+    return state.SkipWithError(run.message.c_str());
+  double fresh = 0.0;
+  for (const IntegratorState* start : {static_cast<const IntegratorState*>(nullptr),
+                                       static_cast<const IntegratorState*>(&states[states.size() / 2]),
+                                       static_cast<const IntegratorState*>(&states.back())})
+    fresh += fresh_event(model, n, start) / 3.0;
+  double solutions = 0.0;
+  for (const WayTotals& way : run.ways) solutions += way.seconds;
   state.SetLabel(run.plan.solver);
   state.counters["total_s"] = run.seconds_total;
-  state.counters["setup_s"] = run.seconds_setup;
+  state.counters["solutions"] = solutions / run.seconds_total;
+  state.counters["search"] = run.seconds_search / run.seconds_total;
   state.counters["events"] = static_cast<double>(run.events);
   state.counters["bonds"] = static_cast<double>(run.broken_bonds);
   state.counters["factor_s"] = factor;
-  state.counters["event_s"] = event.all();
-  state.counters["solution"] = event.solution / factor;
-  state.counters["search"] = event.search / factor;
-  state.counters["rest"] = event.rest / factor;
-  state.counters["fresh_s"] = fresh.all();
-  state.counters["ratio"] = fresh.all() / event.all();
+  state.counters["event_s"] = rows.per_event();
+  state.counters["event"] = rows.per_event() / factor;
+  state.counters["fresh_s"] = fresh;
+  state.counters["ratio"] = fresh / rows.per_event();
   state.counters["balance"] = run.worst_balance;
   for (int way = 0; way < solve_ways; ++way)
     state.counters[name(static_cast<SolveWay>(way))] =

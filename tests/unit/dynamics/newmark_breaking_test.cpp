@@ -218,6 +218,7 @@ TEST(NewmarkBreaking, ProtectedParticlesKeepTheirBonds) {
     Body<2> body = build_body<2>(moved_plate());
     const std::vector<Index> held = select(options.no_fail[0], body.particles);
     std::vector<Offset> before;
+    before.reserve(held.size());
     const auto alive_of = [&](Index i) {
       Offset count = 0;
       for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<2>&) { ++count; });
