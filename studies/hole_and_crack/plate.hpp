@@ -7,12 +7,12 @@
 namespace perimode::studies {
 
 // A square plate of 0.1 m, 5 mm thick, plane stress, E = 3 GPa, G0 = 300 J/m2, with an edge crack of 25 mm
-// at half its height and a hole of 10 mm radius above the crack's line, gripped below and pulled up at the
+// at half its height and a hole of 12 mm radius above the crack's line, gripped below and pulled up at the
 // top (both grips rigid, three rows of particles).
 
-inline constexpr double plate_side = 0.1;                               ///< m
-inline constexpr double crack_tip_x = 0.025, crack_y = 0.05;            ///< m
-inline constexpr double hole_x = 0.055, hole_y = 0.065, hole_r = 0.01;  ///< m
+inline constexpr double plate_side = 0.1;                                ///< m
+inline constexpr double crack_tip_x = 0.025, crack_y = 0.05;             ///< m
+inline constexpr double hole_x = 0.058, hole_y = 0.061, hole_r = 0.012;  ///< m
 
 /// `cells` along each side; horizon of 3 spacings. Given motion: 0.1 mm at load factor 1.
 [[nodiscard]] Model plate_with_hole_and_crack(int cells);
