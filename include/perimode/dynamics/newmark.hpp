@@ -41,7 +41,7 @@ class StepBreaking;
 /// without the bonds that are beyond their critical stretch at its end, until none is. The equation of a step
 /// is that of the bonds alive at its end, HHT's weighted forces included. With gamma = 1/2, alpha = 0 a bond
 /// takes along k_b e_n e_{n+1}/2, its elongations at both ends of the step; the general form, which keeps the
-/// balance to round-off, is in docs/theory/12_implicit.md.
+/// balance to round-off, is in docs/theory/13_breaking.md.
 [[nodiscard]] std::unique_ptr<Integrator> newmark(const Motion& motion, double dt,
                                                   const NewmarkOptions& options, const ShiftedSolver& solver,
                                                   StepBreaking* breaking = nullptr);
