@@ -31,7 +31,8 @@ void print_openings(const Results& results, const ExpectedResults& expected) {
       "{:>9}{:>16}\n",
       crack_opening_stress(opening_crack), "", "m", "W/dx", "first", "expected", "peak", "expected",
       "Griffith", "expected", "events", "printed, Pa");
-  for (const auto& [key, value] : results) {
+  for (const auto& entry : results) {
+    const Key& key = entry.first;
     if (key.quantity != "griffith") continue;
     const auto same = [&](const char* quantity) {
       return Key{quantity, key.body, key.horizon, key.ratio, key.at};
@@ -53,7 +54,8 @@ void print_openings(const Results& results, const ExpectedResults& expected) {
 }
 
 void print_ramps(const Results& results) {
-  for (const auto& [key, value] : results) {
+  for (const auto& entry : results) {
+    const Key& key = entry.first;
     if (key.quantity != "ramp_first") continue;
     const auto of = [&](const char* quantity) {
       return results.at({quantity, key.body, key.horizon, key.ratio, key.at});
@@ -63,8 +65,9 @@ void print_ramps(const Results& results) {
         "ramped, W/dx {:.0f}, {:.0f} s ({:.0f} waves through the height, rows at {:.1e} of sound): first "
         "break {:.4f} "
         "(quasi-static {}), collapse {:.4f} (peak {})\n",
-        key.at, key.horizon, of("ramp_transits"), of("ramp_velocity"), value, text(results, still, "{:.4f}"),
-        of("ramp_collapse"), text(results, {"peak", key.body, 0.0, key.ratio, key.at}, "{:.4f}"));
+        key.at, key.horizon, of("ramp_transits"), of("ramp_velocity"), entry.second,
+        text(results, still, "{:.4f}"), of("ramp_collapse"),
+        text(results, {"peak", key.body, 0.0, key.ratio, key.at}, "{:.4f}"));
   }
 }
 
