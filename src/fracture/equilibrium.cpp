@@ -80,8 +80,8 @@ EquilibriumChoice choose_equilibrium(const Body<Dim>& body, const UpdatedSolverO
   choice.matrix_bytes = 12.0 * static_cast<double>(k.nonzeros());
   const double factor = (2.5 * choice.fill.factor_bytes + choice.fill.flops / solutions_of_a_run) / dofs;
   choice.reason = fmt::format(
-      "a solution moves {:.1f} kB per dof through a factor of {:.2f} GB, about {:.1f} kB in iterations",
-      1e-3 * factor, 1e-9 * choice.fill.factor_bytes, 1e-3 * moved);
+      "a solution moves {:.1f} kB per dof through a factor of {:.3g} MB, about {:.1f} kB in iterations",
+      1e-3 * factor, 1e-6 * choice.fill.factor_bytes, 1e-3 * moved);
   if (!options.only)
     choice.matrix_free = Dim > 1 && (factor > moved || choice.fill.peak_bytes > most_factor_bytes);
   return choice;
