@@ -40,6 +40,8 @@ struct StaleIterations {
 
 constexpr double start_share = 0.001;       // of a factorisation: an updated column before any was measured
 constexpr double too_small_to_time = 5e-3;  // s, a factorisation beside which no choice pays
+// A stale factor puts the update off, it does not spare it.
+constexpr double much_cheaper = 2.0;
 constexpr double worse_than_fresh = 10.0;
 constexpr double always_fine = 1e-12;  // a residual that needs no refinement
 constexpr int most_refinements = 2;
@@ -137,8 +139,9 @@ struct UpdatedSolver::Implementation {
     const double update = lacking * each + solution.seconds;
     const double stale = stale_iterations.predict(lacking) * (solution.seconds + product.seconds);
     const double again = factor_time + solution.seconds;
-    if (factor_time < too_small_to_time || update <= std::min(stale, again)) return SolveWay::update;
-    return stale < again ? SolveWay::stale : SolveWay::refactor;
+    if (factor_time < too_small_to_time || update <= std::min(much_cheaper * stale, again))
+      return SolveWay::update;
+    return much_cheaper * stale < again ? SolveWay::stale : SolveWay::refactor;
   }
 
   /// Brings the factor up to date. False: the matrix is not positive definite.

@@ -21,9 +21,9 @@ struct Checkpoint {
   std::int64_t frames = 0;                         ///< of fields.exo
 };
 
-/// What tells one run from another, 32 hexadecimal digits: of the analysis ("transient"), the canonical text of
-/// the case, the contents of the files it names and the format of checkpoints. Throws environment for a file
-/// that cannot be read.
+/// What tells one run from another, 32 hexadecimal digits: of the analysis ("transient"), the canonical text
+/// of the case, the contents of the files it names and the format of checkpoints. Throws environment for a
+/// file that cannot be read.
 [[nodiscard]] std::string case_digest(const std::string& analysis, const std::string& canonical,
                                       const std::vector<std::filesystem::path>& files);
 
