@@ -48,7 +48,7 @@ struct QuasistaticOptions {
   LoosePieces loose = LoosePieces::hold;
   double end = 1.0;          ///< steps: time of the last one
   std::int64_t steps = 100;  ///< steps: their number
-  Index break_at_once = 0;  ///< steps: the worst so many over-stretched bonds break between solutions; 0: all
+  Index break_at_once = 1;  ///< steps: the worst so many over-stretched bonds break between solutions; 0: all
   UpdatedSolverOptions solver = {};
   bool matrix_free = false;  ///< no factor: conjugate gradients on the operator (also chosen where none fits)
   bool griffith = false;     ///< also the Griffith load of the first pre-crack (griffith.hpp), before the run
@@ -66,6 +66,11 @@ struct QuasistaticRow {
   double load_factor = 0.0;   ///< steps: 1
   double displacement = 0.0;  ///< f.u/|f| of the loads; without loads, load_factor |g| of the given motion, m
   double force = 0.0;         ///< the force that works along it: load_factor |f|; without loads r.g/|g|, N
+  /// Sum of the magnitudes of the loads now (without loads: of the reaction along the given motion), N, and
+  /// the mean displacement along them, m: force and displacement times and over |d|_1, d the direction of the
+  /// curve.
+  double total_force = 0.0;
+  double mean_displacement = 0.0;
   double stored_energy = 0.0;         ///< J, bond by bond
   double dissipated_energy = 0.0;     ///< J, chord: (F_n U_n+1 - F_n+1 U_n)/2 summed, docs/theory/14
   double bond_energy_released = 0.0;  ///< J, of bonds as they broke
