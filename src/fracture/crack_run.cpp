@@ -9,6 +9,7 @@
 
 #include "core/stopwatch.hpp"
 #include "perimode/bonds/bonds.hpp"
+#include "perimode/core/error.hpp"
 #include "perimode/fracture/crack_area.hpp"
 
 namespace perimode {
@@ -28,6 +29,17 @@ Eigen::VectorXd all_dofs(const Body<Dim>& body, const Eigen::Ref<const Eigen::Ve
 }
 
 }  // namespace
+
+/// A residual of iterations that have not converged.
+constexpr double hopeless = 1e-6;
+
+void not_held() {
+  invalid_input(
+      {"supports and bonds that hold the body against its loads",
+       "a piece that moves under them without stretching a bond",
+       "fix or prescribe what stops that motion, use a longer horizon, or end the pre-cracks earlier",
+       {}});
+}
 
 template <int Dim>
 CrackRun<Dim>::CrackRun(Body<Dim>& body, const QuasistaticOptions& options,
@@ -110,11 +122,12 @@ bool CrackRun<Dim>::solve(const std::vector<Driving>& drivings, std::vector<Eige
   for (std::size_t tried = 0; tried < 100; ++tried) {
     for (Eigen::Index c = 0; c < columns; ++c) b.col(c) = right_side(drivings[static_cast<std::size_t>(c)]);
     outcome = equilibrium_->solve(b, q_);
-    if (!outcome.singular) break;
+    // Iterations that come nowhere near may have met a mechanism as well.
+    if (!outcome.singular && (outcome.converged || outcome.residual <= hopeless)) break;
     const std::size_t before = equilibrium_->pins().size();
     pin_mechanism(outcome.dof);
     q_.setZero();
-    if (equilibrium_->pins().size() == before) break;  // nothing to hold
+    if (equilibrium_->pins().size() == before) break;  // no mechanism
   }
   result_.worst_residual = std::max(result_.worst_residual, outcome.residual);
   // Where round-off holds iterations up short of their tolerance, that is all there is to be had.
@@ -144,7 +157,8 @@ bool CrackRun<Dim>::solve(const std::vector<Driving>& drivings, std::vector<Eige
 }
 
 template <int Dim>
-void CrackRun<Dim>::reach(const Eigen::VectorXd& displacement, const Driving& driving, double stored) {
+void CrackRun<Dim>::reach(const Eigen::VectorXd& displacement, const Driving& driving, double stored,
+                          const std::vector<double>& factors) {
   EquilibriumState state;
   state.displacement = displacement;
   state.external = Eigen::VectorXd::Zero(displacement.size());
@@ -168,15 +182,15 @@ void CrackRun<Dim>::reach(const Eigen::VectorXd& displacement, const Driving& dr
   const Eigen::VectorXd& along = problem_.motion_driven ? driving.given : displacement;
   state.along = problem_.direction.dot(along);
   state.force = problem_.motion_driven ? reaction : problem_.direction.dot(driving.load);
-  // Springs pull back on what they hold; on a body free to move they carry nothing, and u has no rigid part.
-  if (spring_share_ > 1e-9) {
-    std::vector<Eigen::Index> dof_of(static_cast<std::size_t>(body_->boundary.free));
-    for (std::size_t d = 0; d < number.size(); ++d)
-      if (number[d] >= 0) dof_of[static_cast<std::size_t>(number[d])] = static_cast<Eigen::Index>(d);
+  // Springs pull back on what they hold.
+  if (!equilibrium_->pins().empty()) {
+    Eigen::VectorXd pull = Eigen::VectorXd::Zero(body_->boundary.free);
     for (const Pin& pin : equilibrium_->pins()) {
-      const Eigen::Index d = dof_of[static_cast<std::size_t>(pin.dof)];
-      state.external[d] -= pin.stiffness * displacement[d];
+      for (std::size_t c = 0; c < factors.size(); ++c)
+        pull[pin.dof] -= factors[c] * pin.stiffness * q_(pin.dof, static_cast<Eigen::Index>(c));
     }
+    for (std::size_t d = 0; d < number.size(); ++d)
+      if (number[d] >= 0) state.external[static_cast<Eigen::Index>(d)] += pull[number[d]];
   }
   ledger_.reach(std::move(state), bond_states<Dim>(*body_, left_, displacement));
   left_.clear();
@@ -225,13 +239,20 @@ void CrackRun<Dim>::break_bonds(const std::vector<BondRef>& bonds) {
   for (const Ends& e : ends) {
     for (const Index i : {e.first, e.second}) {
       const std::vector<Index> dofs = LooseSearch<Dim>::unheld_dofs(*body_, *equilibrium_, i);
-      if (!dofs.empty()) hold_or_remove({i}, dofs);
+      if (!dofs.empty()) hold_or_remove({i}, dofs, held_by_nothing(i));
     }
     const std::vector<Index> side = search_.cut_off(*body_, e.first, e.second);
     if (side.empty() || (side.size() == 1 && held(side[0]))) continue;
     for (const LooseMotion& loose : loose_motions(*body_, *equilibrium_, problem_.mass))
-      hold_or_remove(loose.particles, loose.dofs);
+      hold_or_remove(loose.particles, loose.dofs, true);
   }
+}
+
+template <int Dim>
+bool CrackRun<Dim>::held_by_nothing(Index i) const {
+  bool none = true;
+  for_each_bond(body_->bonds, i, Which::alive, [&](const BondEnd<Dim>&) { none = false; });
+  return none;
 }
 
 /// Whether springs hold all components of particle i.
@@ -245,7 +266,8 @@ bool CrackRun<Dim>::held(Index i) const {
 }
 
 template <int Dim>
-void CrackRun<Dim>::hold_or_remove(const std::vector<Index>& piece, const std::vector<Index>& dofs) {
+void CrackRun<Dim>::hold_or_remove(const std::vector<Index>& piece, const std::vector<Index>& dofs,
+                                   bool apart) {
   LoosePiece loose;
   loose.event = label_;
   loose.particles = static_cast<Index>(piece.size());
@@ -261,24 +283,18 @@ void CrackRun<Dim>::hold_or_remove(const std::vector<Index>& piece, const std::v
   loose.loaded = carried > 0.0;
   // A piece whose loads matter is not dropped where that is to end the run.
   const bool ends = options_->stop.separated && carried > separating_share * whole;
-  if (options_->loose == LoosePieces::hold || ends) {
+  if (options_->loose == LoosePieces::hold || ends || !apart) {
     equilibrium_->pin(dofs);
   } else {
-    std::vector<BondRef> bonds;
     std::vector<Index> all;
     for (const Index i : piece) {
       removed_[i] = 1;
-      for_each_bond(body_->bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-        bonds.push_back({i, end.slot});
-      });
       for (int a = 0; a < Dim; ++a) {
         const Index n = body_->boundary.free_number[static_cast<std::size_t>(i) * Dim + a];
         if (n >= 0) all.push_back(n);
       }
     }
     equilibrium_->pin(all);
-    bonds = with_images(*body_, std::move(bonds));
-    if (!bonds.empty()) clear_bonds(bonds);
   }
   result_.loose.push_back(loose);
   if (observer_->loose) observer_->loose(loose);
@@ -289,7 +305,7 @@ template <int Dim>
 void CrackRun<Dim>::pin_mechanism(Index dof) {
   if (dof < 0) {
     const std::vector<LooseMotion> rigid = loose_motions(*body_, *equilibrium_, problem_.mass);
-    for (const LooseMotion& loose : rigid) hold_or_remove(loose.particles, loose.dofs);
+    for (const LooseMotion& loose : rigid) hold_or_remove(loose.particles, loose.dofs, true);
     if (!rigid.empty()) return;
     dof = equilibrium_->mechanism_dof();
     if (dof < 0) return;
@@ -310,20 +326,22 @@ void CrackRun<Dim>::pin_mechanism(Index dof) {
     }
     if (moves) piece.push_back(i);
   }
-  hold_or_remove(piece, {});
+  hold_or_remove(piece, {}, false);
 }
 
-#define PERIMODE_CRACK_RUN(D)                                                                        \
-  template CrackRun<D>::CrackRun(Body<D>&, const QuasistaticOptions&, const QuasistaticObserver<D>&, \
-                                 const Sink&, QuasistaticProblem, bool, const IntegratorState*);     \
-  template Point<D> CrackRun<D>::force_on(Index, const Eigen::VectorXd&) const;                      \
-  template Eigen::VectorXd CrackRun<D>::right_side(const Driving&) const;                            \
-  template bool CrackRun<D>::solve(const std::vector<Driving>&, std::vector<Eigen::VectorXd>&);      \
-  template void CrackRun<D>::reach(const Eigen::VectorXd&, const Driving&, double);                  \
-  template void CrackRun<D>::clear_bonds(const std::vector<BondRef>&);                               \
-  template void CrackRun<D>::break_bonds(const std::vector<BondRef>&);                               \
-  template bool CrackRun<D>::held(Index) const;                                                      \
-  template void CrackRun<D>::hold_or_remove(const std::vector<Index>&, const std::vector<Index>&);   \
+#define PERIMODE_CRACK_RUN(D)                                                                            \
+  template CrackRun<D>::CrackRun(Body<D>&, const QuasistaticOptions&, const QuasistaticObserver<D>&,     \
+                                 const Sink&, QuasistaticProblem, bool, const IntegratorState*);         \
+  template Point<D> CrackRun<D>::force_on(Index, const Eigen::VectorXd&) const;                          \
+  template Eigen::VectorXd CrackRun<D>::right_side(const Driving&) const;                                \
+  template bool CrackRun<D>::solve(const std::vector<Driving>&, std::vector<Eigen::VectorXd>&);          \
+  template void CrackRun<D>::reach(const Eigen::VectorXd&, const Driving&, double,                       \
+                                   const std::vector<double>&);                                          \
+  template void CrackRun<D>::clear_bonds(const std::vector<BondRef>&);                                   \
+  template void CrackRun<D>::break_bonds(const std::vector<BondRef>&);                                   \
+  template bool CrackRun<D>::held(Index) const;                                                          \
+  template bool CrackRun<D>::held_by_nothing(Index) const;                                               \
+  template void CrackRun<D>::hold_or_remove(const std::vector<Index>&, const std::vector<Index>&, bool); \
   template void CrackRun<D>::pin_mechanism(Index)
 PERIMODE_CRACK_RUN(1);
 PERIMODE_CRACK_RUN(2);

@@ -52,8 +52,10 @@ class CrackRun {
   /// Share of the driving's load that springs carry in the last solution, the largest over its columns.
   [[nodiscard]] double spring_share() const { return spring_share_; }
 
-  /// The ledger goes to a state: its displacement, driving and strain energy.
-  void reach(const Eigen::VectorXd& displacement, const Driving& driving, double stored);
+  /// The ledger goes to a state: displacement, driving and strain energy, and the factors by which it is made
+  /// of the columns of the last solution.
+  void reach(const Eigen::VectorXd& displacement, const Driving& driving, double stored,
+             const std::vector<double>& factors);
   /// Bonds break at the state reached; pieces that lose their support are held or removed.
   void break_bonds(const std::vector<BondRef>& bonds);
   /// A row of the state reached, before its bonds break.
@@ -85,7 +87,9 @@ class CrackRun {
   [[nodiscard]] Point<Dim> force_on(Index i, const Eigen::VectorXd& displacement) const;
   [[nodiscard]] bool held(Index i) const;
   void clear_bonds(const std::vector<BondRef>& bonds);
-  void hold_or_remove(const std::vector<Index>& piece, const std::vector<Index>& dofs);
+  [[nodiscard]] bool held_by_nothing(Index i) const;
+  /// `apart`: no bond ties the piece to others. One that hangs by a hinge is held, as it may pass loads on.
+  void hold_or_remove(const std::vector<Index>& piece, const std::vector<Index>& dofs, bool apart);
   void pin_mechanism(Index dof);
   void flush_broken();
   void give_fields();
@@ -103,7 +107,7 @@ class CrackRun {
   LooseSearch<Dim> search_;
   FractureLedger ledger_;
   std::vector<std::uint8_t> removed_;  ///< particles of removed pieces: their loads are gone
-  Eigen::MatrixXd q_;                  ///< last solution, the next guess
+  Eigen::MatrixXd q_;  ///< last solution, the next guess (rigid motions as the springs have them)
   double spring_share_ = 0.0;
   std::vector<BondRef> left_;                ///< bonds broken at the state reached
   std::vector<BrokenBond<Dim>> unreported_;  ///< of them
@@ -114,6 +118,9 @@ class CrackRun {
   bool frame_due_ = false;  ///< fields of the last row were not given out
   QuasistaticResult result_;
 };
+
+/// A piece that carries load is without support before anything broke.
+[[noreturn]] void not_held();
 
 /// The drivers. Each returns the finished result.
 template <int Dim>

@@ -17,6 +17,9 @@ QuasistaticRow CrackRun<Dim>::row(double load_factor) const {
   row.event = result_.events + 1;
   row.load_factor = load_factor;
   ledger_.put(row);
+  const double spread = problem_.direction.template lpNorm<1>();
+  row.total_force = row.force * spread;
+  row.mean_displacement = row.displacement / spread;
   row.broken_bonds = result_.broken_bonds;
   row.crack_length = options_->area.initial + broken_area_;
   return row;

@@ -125,10 +125,13 @@ void Equilibrium<Dim>::rebuild() {
 template <int Dim>
 Index Equilibrium<Dim>::mechanism_dof() const {
   if (body_->boundary.free > most_dofs_to_order[Dim - 1]) return -1;
-  const Csr k = free_matrix(*body_, *pins_);
-  CholeskyFactor factor = CholeskyFactor::with_order(k, elimination_order(*body_, k));
-  const bool definite = factor.factorize(k, 0.0, Eigen::VectorXd::Zero(k.rows)) == FactorStatus::done;
-  return definite ? -1 : factor.failed_dof();
+  Csr k = free_matrix(*body_, *pins_);
+  std::vector<Index> order = elimination_order(*body_, k);
+  UpdatedSolverOptions options;
+  options.only = SolveWay::refactor;
+  UpdatedSolver solver(product_, std::move(k), std::move(order), options);
+  Eigen::MatrixXd push = Eigen::MatrixXd::Ones(body_->boundary.free, 1), motion;
+  return solver.solve(push, motion).dof;
 }
 
 template <int Dim>

@@ -216,6 +216,57 @@ TEST(Quasistatic, StepsStayWithinTheCriticalStretchAndFollowTheirProgram) {
   }
 }
 
+TEST(Quasistatic, StepsBeyondThePeakEndWithTheirLastStateOfEquilibrium) {
+  const Model m = cracked_plate(14, 0.3);
+  Body<2> body = build_body<2>(m);
+  QuasistaticOptions o = pulled(m, body);
+  o.stop.events = 1;
+  const double first = run_quasistatic(body, o).first_load;
+  body = build_body<2>(m);
+  o = pulled(m, body);
+  o.loads[0] = pull({0.0, 3.0 * first}, face(1, true));
+  o.control = QuasistaticControl::steps;
+  o.steps = 2;
+  Told<2> told;
+  const QuasistaticResult result = run_quasistatic(body, o, told.observer());
+  EXPECT_EQ(result.status, QuasistaticStatus::separated) << result.message;
+  EXPECT_NE(result.message.find("in step 1"), std::string::npos) << result.message;
+  ASSERT_EQ(told.rows.size(), 1U);
+  EXPECT_EQ(told.rows[0].breaking_bonds, result.broken_bonds);
+  EXPECT_GT(told.rows[0].external_work, 0.0);
+  EXPECT_LE(result.worst_balance, 1e-10);
+}
+
+TEST(Quasistatic, MotionThroughZeroIsNoSeparation) {
+  Model m = cracked_plate(12, 0.25);
+  TimeFunction there_and_back{TimeFunction::Kind::table};
+  there_and_back.time = {0.0, 1.0, 2.0, 4.0};
+  there_and_back.value = {0.0, 1.0, 0.0, 2.0};
+  prescribe(m, 1, 2.5e-2, face(1, true), there_and_back);
+  Body<2> body = build_body<2>(m);
+  QuasistaticOptions o = options_of(m, body);
+  o.control = QuasistaticControl::steps;
+  o.steps = 4;
+  o.end = 4.0;
+  Told<2> told;
+  const QuasistaticResult result = run_quasistatic(body, o, told.observer());
+  ASSERT_EQ(told.rows.size(), 4U) << result.message;
+  EXPECT_GT(told.rows[0].breaking_bonds, 0);
+  EXPECT_EQ(told.rows[1].breaking_bonds, 0);  // unloading heals nothing and breaks nothing
+  EXPECT_GE(told.rows[3].breaking_bonds, 0);
+}
+
+TEST(Quasistatic, ALoadedPieceOnAHingeIsRefusedBeforeTheFirstBreak) {
+  Model m = box_model({12, 4}, 0.1, 1.5);
+  fix_face(m, 0, false, 2, {0, 1});
+  m.material.critical_stretch = 1e-3;
+  add_crack(m, {{0.6, -0.1}, {0.6, 0.301}});  // the upper row alone ties the right half: a hinge or less
+  Body<2> body = build_body<2>(m);
+  QuasistaticOptions o = options_of(m, body);
+  o.loads = {pull({0.0, 1.0}, face(0, true))};
+  EXPECT_NE(refusal([&] { (void)run_quasistatic(body, o); }).find("hold the body"), std::string::npos);
+}
+
 TEST(Quasistatic, DeadLoadsActInFullAndTheOthersTakeWhatIsLeft) {
   // Under one and the same traction as dead and as live load, the factors add up.
   const Model m = cracked_plate(12, 0.25);
