@@ -241,10 +241,11 @@ std::vector<TransientProbe> read_probes(const Cursor& cursor, const Model& model
 
 void read_transient(const Cursor& cursor, InputFiles& files, Case& result) {
   const BodyFacts facts = facts_of(result.model);
-  const Section section(cursor, {"method", "dt", "end", "beta", "gamma", "alpha", "modes", "solver",
-                                 "tolerance", "operator", "initial", "loads", "damping", "sponge", "probes",
-                                 "no_fail", "history_every", "fields_at", "fields_every",
-                                 "checkpoint_every"});
+  const Section section(
+      cursor,
+      {"method", "dt",        "end",           "beta",      "gamma",        "alpha",           "modes",
+       "solver", "tolerance", "operator",      "initial",   "loads",        "damping",         "sponge",
+       "probes", "no_fail",   "history_every", "fields_at", "fields_every", "checkpoint_every"});
   TransientOptions options;
   options.where = cursor.where();
   options.kinematics = result.kinematics;
