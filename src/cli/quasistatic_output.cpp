@@ -14,7 +14,8 @@ namespace perimode::cli {
 std::string load_curve_header(QuasistaticControl control) {
   std::string header =
       "event,load_factor,displacement,stored_energy,dissipated_energy,bond_energy_released,external_work,"
-      "broken_bonds,crack_length,force,relaxation_energy,balance,breaking_bonds";
+      "broken_bonds,crack_length,force,relaxation_energy,balance,breaking_bonds,total_force,"
+      "mean_displacement";
   if (control == QuasistaticControl::steps) header += ",time,iterations";
   return header;
 }
@@ -28,7 +29,7 @@ void add_load_curve(OutputFile& file, const QuasistaticRow& row, QuasistaticCont
   fmt::format_to(to, ",{}", row.broken_bonds);
   for (const double value : {row.crack_length, row.force, row.relaxation_energy, row.balance()})
     fmt::format_to(to, ",{:.17g}", value);
-  fmt::format_to(to, ",{}", row.breaking_bonds);
+  fmt::format_to(to, ",{},{:.17g},{:.17g}", row.breaking_bonds, row.total_force, row.mean_displacement);
   if (control == QuasistaticControl::steps) fmt::format_to(to, ",{:.17g},{}", row.time, row.iterations);
   file.buffer().push_back('\n');
   file.flush_if_full();
@@ -147,11 +148,13 @@ std::string quasistatic_start_text(const Body<Dim>& body, const QuasistaticPlan&
   return text;
 }
 
-std::string loose_text(const LoosePiece& piece, LoosePieces done) {
-  return fmt::format("event {}: a piece of {} particle{} at [{:.4g}] m has lost its support{}; it is {}",
-                     piece.event, piece.particles, piece.particles == 1 ? "" : "s",
-                     fmt::join(piece.centre, ", "), piece.loaded ? " and carries load" : "",
-                     done == LoosePieces::hold ? "held" : "removed");
+std::string loose_text(const LoosePiece& piece, const QuasistaticOptions& options) {
+  // A piece with load may end the run, and of those to be removed the ones that hang by a hinge are held.
+  const bool held = options.loose == LoosePieces::hold && !(piece.loaded && options.stop.separated);
+  return fmt::format("{} {}: a piece of {} particle{} at [{:.4g}] m has lost its support{}{}",
+                     options.control == QuasistaticControl::event ? "event" : "step", piece.event,
+                     piece.particles, piece.particles == 1 ? "" : "s", fmt::join(piece.centre, ", "),
+                     piece.loaded ? " and carries load" : "", held ? "; it is held" : "");
 }
 
 namespace {
@@ -167,7 +170,7 @@ void add_loads(std::back_insert_iterator<fmt::memory_buffer> to, const Quasistat
                    result.peak_event);
   }
   if (!facts.griffith) return;
-  fmt::format_to(to, "Griffith         load factor {:.6g} (G {:.4g} J/m2 at 1, G0 {:.4g} J/m2)\n",
+  fmt::format_to(to, "Griffith         load factor {:.6g} (G {:.4g} J/m2 at load factor 1, G0 {:.4g} J/m2)\n",
                  facts.griffith->load_factor, facts.griffith->energy_release_rate,
                  facts.griffith->fracture_energy);
 }
@@ -192,10 +195,29 @@ void add_energies(std::back_insert_iterator<fmt::memory_buffer> to, const Quasis
   }
 }
 
-/// How the crack's extent is told by dimension.
-std::string extent_text(double extent, int dimension) {
-  constexpr const char* unit[] = {" cuts", " m", " m2"};
-  return fmt::format("{:.6g}{}", extent, unit[dimension - 1]);
+/// The crack at the end and at the start.
+std::string extent_text(const QuasistaticResult& result, const QuasistaticFacts& facts) {
+  constexpr const char* label[] = {"cuts             ", "crack length     ", "crack area       "};
+  constexpr const char* unit[] = {"", " m", " m2"};
+  const int d = facts.dimension - 1;
+  return fmt::format("{}{:.6g}{}, from {:.6g}{}\n", label[d], result.crack_length, unit[d],
+                     facts.area.initial, unit[d]);
+}
+
+/// "after 7 events: separated, ..."
+std::string end_text(const QuasistaticResult& result, const char* counted) {
+  const std::string after =
+      fmt::format("after {} {}{}", result.events, counted, result.events == 1 ? "" : "s");
+  switch (result.status) {
+    case QuasistaticStatus::events:
+      return after + ", as asked";
+    case QuasistaticStatus::separated:
+      return fmt::format("{}: separated, {}", after, result.message);
+    case QuasistaticStatus::not_converged:
+      return fmt::format("{}: not converged, {}", after, result.message);
+    default:  // the message says it all; a run of all its steps has none
+      return fmt::format("{}: {}", after, result.message.empty() ? "done" : result.message);
+  }
 }
 
 }  // namespace
@@ -205,13 +227,11 @@ std::string quasistatic_text(const QuasistaticResult& result, const QuasistaticF
   const auto to = std::back_inserter(out);
   const char* counted = facts.control == QuasistaticControl::event ? "event" : "step";
   add_loads(to, result, facts);
-  fmt::format_to(to, "ended            {} after {} {}{}", status_name(result.status), result.events, counted,
-                 result.events == 1 ? "" : "s");
-  fmt::format_to(to, "{}{}\n", result.message.empty() ? "" : ": ", result.message);
+  if (facts.resumed_from > 0)
+    fmt::format_to(to, "resumed          from {} {}\n", counted, facts.resumed_from);
+  fmt::format_to(to, "ended            {}\n", end_text(result, counted));
   fmt::format_to(to, "broken bonds     {}\n", result.broken_bonds);
-  fmt::format_to(to, "{}     {}, from {}\n", facts.dimension == 3 ? "crack area  " : "crack length",
-                 extent_text(result.crack_length, facts.dimension),
-                 extent_text(facts.area.initial, facts.dimension));
+  fmt::format_to(to, "{}", extent_text(result, facts));
   if (!result.loose.empty()) fmt::format_to(to, "loose pieces     {}\n", result.loose.size());
   add_energies(to, result, facts);
   const char* label = "\nsolutions        ";

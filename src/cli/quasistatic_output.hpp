@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ struct QuasistaticFacts {
   double fracture_energy = 0.0;  ///< G0, J/m2
   CrackAreaScale area;
   std::optional<GriffithLoad> griffith;
+  std::int64_t resumed_from = 0;  ///< event (step); 0: from the start
 };
 
 /// "separated", "not_converged", ...
@@ -46,7 +48,7 @@ void add_quasistatic(nlohmann::ordered_json& summary, const QuasistaticResult& r
 template <int Dim>
 [[nodiscard]] std::string quasistatic_start_text(const Body<Dim>& body, const QuasistaticPlan& plan);
 [[nodiscard]] std::string quasistatic_text(const QuasistaticResult& result, const QuasistaticFacts& facts);
-[[nodiscard]] std::string loose_text(const LoosePiece& piece, LoosePieces done);
+[[nodiscard]] std::string loose_text(const LoosePiece& piece, const QuasistaticOptions& options);
 
 /// What `perimode check` says of a quasi-static analysis.
 [[nodiscard]] std::string quasistatic_plan_text(const QuasistaticPlan& plan);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "machine.hpp"
@@ -19,17 +22,22 @@ namespace {
 /// Loose pieces told of one by one; all of them are in summary.json.
 constexpr int most_pieces_told = 5;
 
-/// What the run writes while it lasts.
+/// What the run writes while it lasts. The Griffith load goes into `facts`.
 template <int Dim>
-QuasistaticObserver<Dim> observer_of(const Body<Dim>& body, const QuasistaticOptions& options,
-                                     ResumableRun& files, Console& console) {
+QuasistaticObserver<Dim> observer_of(const Case& input, const Body<Dim>& body,
+                                     const QuasistaticOptions& options, ResumableRun& files, Console& console,
+                                     QuasistaticFacts& facts) {
   OutputFile& curve = files.text("load_curve.csv", load_curve_header(options.control));
   OutputFile& path = files.text("crack_path.csv", crack_path_header(Dim));
   QuasistaticObserver<Dim> observer;
-  observer.begin = [&body, &console](const QuasistaticPlan& plan) {
+  observer.begin = [&](const QuasistaticPlan& plan) {
     console.clear_progress();
     fmt::print("{}", quasistatic_start_text(body, plan));
     std::fflush(stdout);
+    if (!options.griffith) return;
+    console.stage("Griffith load", -1.0);
+    facts.griffith =
+        griffith_load(body, options.loads, crack_increment(input.model, body), facts.fracture_energy);
   };
   observer.row = [&files, &curve, &options](const QuasistaticRow& row) {
     files.timed([&] { add_load_curve(curve, row, options.control); });
@@ -44,7 +52,7 @@ QuasistaticObserver<Dim> observer_of(const Body<Dim>& body, const QuasistaticOpt
     });
   };
   observer.loose = [&console, &options, told = 0](const LoosePiece& piece) mutable {
-    if (told < most_pieces_told) console.info(loose_text(piece, options.loose));
+    if (told < most_pieces_told) console.info(loose_text(piece, options));
     if (told == most_pieces_told) console.info("more loose pieces: see summary.json");
     ++told;
   };
@@ -64,7 +72,19 @@ nlohmann::ordered_json summary_of(const Case& input, const Body<Dim>& body, cons
   nlohmann::ordered_json summary = begin_summary("quasistatic", input.title, body);
   summary["bonds"] = result.plan.bonds;  // at the start
   add_quasistatic(summary, result, facts);
+  summary["resumed_from"] =
+      facts.resumed_from > 0 ? nlohmann::ordered_json(facts.resumed_from) : nlohmann::ordered_json();
   return summary;
+}
+
+/// The balance is round-off.
+void warn_of_imbalance(const QuasistaticResult& result, Console& console) {
+  constexpr double tolerated = 1e-6;
+  if (result.worst_balance <= tolerated) return;
+  console.warning(
+      fmt::format("the energies do not balance by {:.1e} of the external work at worst, with residuals of "
+                  "{:.1e}: take a smaller analysis.quasistatic.tolerance, or solver: refactor",
+                  result.worst_balance, result.worst_residual));
 }
 
 template <int Dim>
@@ -76,6 +96,9 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
   const char* global = input.quasistatic->control == QuasistaticControl::event ? "load_factor" : "time";
   ResumableRun files(input, arguments, {"quasistatic", counted, {global}}, console);
   const Sink sink = console.sink();
+  const std::vector<std::string>& fields = input.output.fields;
+  if (std::find(fields.begin(), fields.end(), "velocity") != fields.end())
+    console.warning("output.fields: a quasi-static analysis has no velocity; it is left out");
 
   Body<Dim> body = build_body<Dim>(input.model, sink);
   const double seconds_body = seconds_since(start);
@@ -93,13 +116,9 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
     facts.section = body.section;
     facts.area = options.area;
     facts.fracture_energy = fracture_energy_of(input.model, body);
-    if (options.griffith) {
-      sink.report("Griffith load");
-      facts.griffith =
-          griffith_load(body, options.loads, crack_increment(input.model, body), facts.fracture_energy);
-    }
-    result =
-        run_quasistatic(body, options, observer_of(body, options, files, console), files.resumed(), sink);
+    if (files.resumed() != nullptr) facts.resumed_from = files.resumed()->step;
+    result = run_quasistatic(body, options, observer_of(input, body, options, files, console, facts),
+                             files.resumed(), sink);
     if (result.status == QuasistaticStatus::interrupted)
       return files.end_interrupted(fmt::format("after {} {}", counted, result.events));
     files.close();
@@ -119,6 +138,7 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
 
   fmt::print("{}results in {}\n", quasistatic_text(result, facts), files.target().string());
   std::fflush(stdout);
+  warn_of_imbalance(result, console);
   if (reached(result.status)) return 0;
   console.error(result.message);
   return 1;

@@ -200,7 +200,9 @@ boundary:
 
 analysis:
   quasistatic:
-    control: event              # event: every break at its exact load factor | steps: loads follow functions of time
+    control: event              # event: every break at its exact load factor
+                                # steps: loads follow functions of time through `steps` steps to `end`; within one
+                                #   the worst bond breaks at a time, or break_at_once: n | all
     loads:                      # times the load factor
       - { traction: [1.0e+6, 0], at: { face: x+, layers: 3 } }    # Pa, on a face
     # dead_loads: [ { body_force: [0, -24.0e+3] } ]   # in full at every load factor

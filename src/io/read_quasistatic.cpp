@@ -24,14 +24,13 @@ void refuse_keys_of_the_other(const Section& section, QuasistaticControl control
   }
 }
 
-/// The load factor of event control takes the place of functions of time.
-void refuse_times(const Cursor& cursor, const std::vector<Load>& loads) {
+/// Loads of event control have no functions of time.
+void refuse_times(const Cursor& cursor, const std::vector<Load>& loads, const char* remedy) {
   const std::vector<Cursor> items = cursor.items("[]");
   for (std::size_t k = 0; k < loads.size(); ++k) {
     if (loads[k].time.kind == TimeFunction::Kind::constant) continue;
     Cursor(*items[k].node().find("time"), items[k].path() + ".time")
-        .complain("no function of time in event control",
-                  "the load factor takes its place: remove it, or give control: steps");
+        .complain("no function of time in event control", remedy);
   }
 }
 
@@ -70,7 +69,10 @@ void read_solver(const Section& section, QuasistaticOptions& options) {
 void read_steps(const Section& section, QuasistaticOptions& options) {
   if (const auto steps = section.find("steps")) options.steps = steps->integer(1, "100");
   if (const auto end = section.find("end")) options.end = end->number({"s", "1"});
-  if (const auto most = section.find("break_at_once")) options.break_at_once = most->integer(1, "10");
+  if (const auto most = section.find("break_at_once")) {
+    const bool all = most->node().kind == CaseNode::Kind::scalar && most->node().text == "all";
+    options.break_at_once = all ? 0 : most->integer(1, "1, or all");
+  }
 }
 
 }  // namespace
@@ -94,11 +96,14 @@ void read_quasistatic(const Cursor& cursor, InputFiles& files, Case& result) {
   refuse_keys_of_the_other(section, options.control);
   if (const auto loads = section.find("loads")) {
     options.loads = read_loads(*loads, facts, files);
-    if (options.control == QuasistaticControl::event) refuse_times(*loads, options.loads);
+    if (options.control == QuasistaticControl::event) {
+      refuse_times(*loads, options.loads,
+                   "the load factor takes its place: remove it, or give control: steps");
+    }
   }
   if (const auto loads = section.find("dead_loads")) {
     options.dead_loads = read_loads(*loads, facts, files);
-    refuse_times(*loads, options.dead_loads);
+    refuse_times(*loads, options.dead_loads, "dead loads act in full at every load factor: remove it");
   }
   if (const auto regions = section.find("no_fail")) {
     for (const Cursor& item : regions->items("[ { face: y+, layers: 3 } ]"))

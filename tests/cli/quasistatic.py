@@ -38,7 +38,8 @@ STEPS = PLATE.replace("    loads: [ { traction: [1.0e+6, 0], at: { face: x+, lay
 
 FILES = ["crack_path.csv", "fields.exo", "load_curve.csv", "summary.json"]
 CURVE = ["event", "load_factor", "displacement", "stored_energy", "dissipated_energy", "bond_energy_released",
-         "external_work", "broken_bonds", "crack_length", "force", "relaxation_energy", "balance", "breaking_bonds"]
+         "external_work", "broken_bonds", "crack_length", "force", "relaxation_energy", "balance", "breaking_bonds",
+         "total_force", "mean_displacement"]
 START_ALONE = r"\A(\d+ particles, \d+ bonds, \d+ dofs\nsolver  .*\n(rigid motions .*\n)?)?\Z"
 
 
@@ -69,7 +70,8 @@ class Results(QuasistaticTest):
         run = self.good("quasistatic", "case.yaml")
         summary = self.summary()
         self.assertEqual(summary["status"], "separated")
-        for word in ("particles", "first failure", "peak", "Griffith", "ended            separated", "crack length",
+        for word in ("particles", "first failure", "peak", "Griffith", "ended            after", "events: separated, a piece",
+                     "J/m2 at load factor 1", "crack length",
                      "energy [J]", "balance", "G0 3.8", "results in"):
             self.assertIn(word, run.stdout)
         # The crack ran through what was left of the plate, a little more than straight on at most.
@@ -87,7 +89,7 @@ class Results(QuasistaticTest):
         for key in ("analysis", "title", "particles", "bonds", "dofs", "engine", "solver", "status", "message", "control",
                     "rigid_modes", "events", "first_load", "peak_load", "peak_event", "griffith", "broken_bonds",
                     "initial_crack_length", "crack_length", "energies", "energy_per_area", "worst_balance",
-                    "worst_residual", "ways", "loose_pieces", "timings_s", "peak_memory_mb", "threads", "version"):
+                    "worst_residual", "resumed_from", "ways", "loose_pieces", "timings_s", "peak_memory_mb", "threads", "version"):
             self.assertIn(key, summary)
         self.assertEqual(summary["analysis"], "quasistatic")
         self.assertEqual(summary["events"], len(curve))
@@ -117,6 +119,10 @@ class Results(QuasistaticTest):
             self.assertGreaterEqual(row["crack_length"], length)
             length = row["crack_length"]
             self.assertAlmostEqual(row["force"] / (row["load_factor"] * f * math.sqrt(30)), 1.0, delta=1e-12)
+            # what to plot: f on each of 30 particles, and the work as it was
+            self.assertAlmostEqual(row["total_force"] / (row["load_factor"] * f * 30), 1.0, delta=1e-12)
+            self.assertAlmostEqual(row["total_force"] * row["mean_displacement"] / (row["force"] * row["displacement"]), 1.0,
+                                   delta=1e-12)
             # Clapeyron at equilibrium: U = load_factor f.u / 2, summed bond by bond on the left
             self.assertAlmostEqual(2.0 * row["stored_energy"] / (row["force"] * row["displacement"]), 1.0, delta=1e-9)
             self.assertLess(abs(row["balance"]), 1e-10 * row["external_work"])
@@ -135,7 +141,8 @@ class Results(QuasistaticTest):
         self.assertLess(max(exodus.nodal(file, "damage", 1)), max(exodus.nodal(file, "damage", len(events))))
 
     def test_stops(self):
-        self.run_case(PLATE, "--set", "analysis.quasistatic.stop.events=7")
+        run = self.run_case(PLATE, "--set", "analysis.quasistatic.stop.events=7")
+        self.assertIn("\nended            after 7 events, as asked\n", run.stdout)
         self.assertEqual(self.summary()["status"], "events")
         self.assertEqual(len(self.curve()), 7)
         self.run_case(PLATE, "--force", "--set", "analysis.quasistatic.stop.load_drop=0.3")
@@ -153,7 +160,8 @@ class Results(QuasistaticTest):
         self.assertIn(self.summary()["status"], ("separated",))
 
     def test_steps(self):
-        self.run_case(STEPS)
+        run = self.run_case(STEPS)
+        self.assertRegex(run.stdout, r"\nended            after \d+ steps: (done|separated, )")
         table = self.curve()
         self.assertEqual(list(table[0]), [*CURVE, "time", "iterations"])
         self.assertIn(self.summary()["status"], ("done", "separated"))
@@ -162,6 +170,34 @@ class Results(QuasistaticTest):
         self.assertGreater(self.summary()["broken_bonds"], 0)
         self.assertTrue(any(row["breaking_bonds"] > 0 and row["iterations"] > 1 for row in table))
         self.assertIsNone(self.summary()["first_load"])
+
+    def test_steps_break_one_bond_at_a_time_or_all(self):
+        """All that are over-stretched at once need fewer solutions."""
+        solutions, broken = {}, {}
+        for most in ("1", "all"):
+            self.run_case(STEPS, "--force", "--set", f"analysis.quasistatic.break_at_once={most}")
+            solutions[most] = sum(row["iterations"] for row in self.curve())
+            broken[most] = self.summary()["broken_bonds"]
+        self.assertGreater(solutions["1"], solutions["all"])
+        self.assertGreater(min(broken.values()), 0)
+        self.run_case(STEPS, "--force")
+        self.assertEqual(self.summary()["broken_bonds"], broken["1"])  # the default
+
+    def test_velocity_is_left_out_with_a_warning(self):
+        run = self.run_case(PLATE, "--set", "output.fields=[displacement, velocity]", "--set", "analysis.quasistatic.stop.events=1")
+        self.assertIn("no velocity", run.stderr)
+        self.assertNotIn("energies do not balance", run.stderr)
+
+    def test_cuts_of_a_bar(self):
+        bar = """\
+body: { dimension: 1, area: 1.0e-4, particles: { grid: { lower: [0], upper: [1], spacing: 0.05 } }, horizon: { ratio: 2 },
+        precracks: [ { at: [0.5] } ] }
+material: { youngs_modulus: 70.0e+9, density: 2700, critical_stretch: 1.0e-3 }
+boundary: [ { fix: [x], at: { face: x-, layers: 2 } }, { fix: [x], at: { face: x+, layers: 2 } } ]
+analysis: { quasistatic: { loads: [ { force: [1.0], at: { nearest: [0.3] } } ], stop: { events: 1 } } }
+output: { directory: out/bar }
+"""
+        self.assertRegex(self.run_case(bar).stdout, r"\ncuts             [0-9.]+, from 1\n")
 
     def test_threads_and_ways_of_solving_break_the_same_bonds(self):
         found, loads = set(), []
@@ -179,7 +215,7 @@ class Results(QuasistaticTest):
 
     def test_a_loose_piece_is_told_and_the_run_goes_on(self):
         run = self.run_case(PLATE)
-        self.assertIn("has lost its support and carries load; it is held", run.stderr)
+        self.assertRegex(run.stderr, r"has lost its support and carries load\n")  # it ends the run: not held
         separated = self.summary()
         self.assertEqual(separated["status"], "separated")
         self.assertTrue(separated["loose_pieces"][-1]["loaded"])
@@ -218,6 +254,12 @@ class BadInput(QuasistaticTest):
         self.refused(["loads or moves the body"], PLATE,
                      "analysis.quasistatic.loads=[ { traction: [0, 0], at: { face: x+, layers: 3 } } ]")
 
+    def test_zero_loads_beside_the_griffith_load(self):
+        line = self.refused(["loads or moves the body", "analysis.quasistatic.loads"], PLATE,
+                            "analysis.quasistatic.loads=[ { traction: [0, 0], at: { face: x+, layers: 3 } } ]",
+                            "analysis.quasistatic.griffith=true")
+        self.assertNotIn("analysis.static", line)
+
     def test_a_crack_that_cuts_nothing(self):
         for crack in ("{ from: [0.2, 0], to: [0.2, 0.05] }", "{ from: [0.05, 0], to: [0.05, 1.0e-4] }"):
             line = self.refused(["pre-crack"], PLATE, f"body.precracks=[ {crack} ]")
@@ -247,6 +289,7 @@ class BadInput(QuasistaticTest):
 
     def test_functions_of_time_in_event_control(self):
         self.refused(["control: steps", "case.yaml:"], PLATE.replace("layers: 3 } } ]", "layers: 3 }, time: { ramp: 1 } } ]"))
+        self.refused(["act in full"], PLATE, "analysis.quasistatic.dead_loads=[ { force: [1, 0], time: { ramp: 1 } } ]")
         self.refused(["control: steps"], PLATE, "boundary.1={ prescribe: { y: 0.0 }, at: { face: y+, layers: 1 }, time: { ramp: 1 } }")
 
     def test_large_rotations(self):
@@ -259,7 +302,7 @@ class BadInput(QuasistaticTest):
 class Unfinished(QuasistaticTest):
     """Runs that did not come to their end, and what the next one makes of them."""
 
-    RUN_AGAIN = ("timings_s", "peak_memory_mb", "ways", "factor_seconds")  # differ from run to run
+    RUN_AGAIN = ("timings_s", "peak_memory_mb", "ways", "factor_seconds", "resumed_from")  # differ from run to run
 
     def left(self, folder):
         """Everything of a result that has to be the same."""
@@ -302,8 +345,13 @@ class Unfinished(QuasistaticTest):
                         run.kill()
                         run.communicate()
                         kills += 1
-                self.good("quasistatic", "case.yaml", "--threads", "1", "--force", *(["--resume"] if self.have_checkpoint() else []))
+                more = ["--resume"] if self.have_checkpoint() else []
+                run = self.good("quasistatic", "case.yaml", "--threads", "1", "--force", *more)
                 self.assertEqual(self.left(self.result), expected)
+                since = self.summary()["resumed_from"]
+                self.assertEqual(since is not None, bool(more))
+                if more:
+                    self.assertIn(f"\nresumed          from {control.removesuffix('s')} {since}\n", run.stdout)
 
     def test_an_interrupt_leaves_a_checkpoint_to_go_on_from(self):
         text = PLATE.replace("spacing: 0.005", "spacing: 0.001").replace("    checkpoint_every: 10\n", "").replace(

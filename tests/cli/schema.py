@@ -91,7 +91,7 @@ boundary:
   - { wall: x-, type: surface_nodes, traction: 1.0e+6, time: { expression: "sin(pi*t)" } }
   - { wall: x+, type: surface_nodes, displacement: ["1e-3*x"], time: { step: 1.0e-4 } }
 analysis: { modal: { range: [0, 5000] }, static: , transient: { method: newmark, beta: 0.3, gamma: 0.6, end: 1, solver: cg, tolerance: 1.0e-10, fields_every: 5 },
-            quasistatic: { control: steps, steps: 50, end: 2, break_at_once: 3, stop: { separated: false },
+            quasistatic: { control: steps, steps: 50, end: 2, break_at_once: all, stop: { separated: false },
                            loads: [ { force: [1], at: { nearest: [1] }, time: { ramp: 2 } } ] } }
 """,
     "solid": """

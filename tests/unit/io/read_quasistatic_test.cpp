@@ -83,6 +83,8 @@ TEST(ReadQuasistatic, EveryKeyOfSteps) {
   EXPECT_EQ(o.steps, 7);
   EXPECT_EQ(o.end, 3.5);
   EXPECT_EQ(o.break_at_once, 2);
+  EXPECT_EQ(options("{ control: steps, break_at_once: all }").break_at_once, 0);
+  EXPECT_EQ(options("{ control: steps }").break_at_once, 1);
   EXPECT_EQ(o.loads.at(0).time.kind, TimeFunction::Kind::ramp);
 }
 
@@ -109,7 +111,8 @@ TEST(ReadQuasistatic, WrongValuesAreRefusedWhereTheyStand) {
       {"{ loads: 3 }", "a list"},
       {"{ loads: [ { force: [1] } ] }", "2 numbers"},
       {"{ loads: [ { force: [1, 0], time: { ramp: 1 } } ] }", "give control: steps"},
-      {"{ dead_loads: [ { force: [1, 0], time: { step: 1 } } ] }", "give control: steps"},
+      {"{ dead_loads: [ { force: [1, 0], time: { step: 1 } } ] }",
+       "act in full at every load factor: remove it"},
       {"{ control: steps, dead_loads: [] }", "put it into loads"},
       {"{ control: steps, griffith: false }", "control: event"},
       {"{ griffith: true, dead_loads: [ { force: [1, 0] } ] }", "dead_loads"},
@@ -119,6 +122,7 @@ TEST(ReadQuasistatic, WrongValuesAreRefusedWhereTheyStand) {
       {"{ control: steps, steps: 0 }", "whole number >= 1"},
       {"{ control: steps, end: 0 }", "> 0 in s"},
       {"{ control: steps, break_at_once: 1.5 }", "whole number"},
+      {"{ control: steps, break_at_once: some }", "or all"},
       {"{ no_fail: { face: y-, layers: 2 } }", "a list"},
       {"{ no_fail: [ { block: nowhere } ] }", "nowhere"},
       {"{ loads: [ { force: [1, 0], at: { block: nowhere } } ] }", "nowhere"},
