@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "bond_evaluation.hpp"
+#include "bonds/partner_slot.hpp"
 
 namespace perimode {
 
@@ -28,16 +29,6 @@ BondEnd<Dim> end_of(const CloudBonds<Dim>& bonds, const BondRef& bond) {
   return {bonds.neighbour[e], bonds.xi[e], bonds.xi[e].norm(), bonds.weight[e], bonds.horizon[e], bond.slot};
 }
 
-template <int Dim>
-Offset other_slot(const GridBonds<Dim>& bonds, Index, Index, Offset slot) {
-  return bonds.family.size() - 1 - slot;
-}
-template <int Dim>
-Offset other_slot(const CloudBonds<Dim>& bonds, Index i, Index j, Offset) {
-  const auto first = bonds.neighbour.begin() + bonds.start[j];
-  return std::lower_bound(first, bonds.neighbour.begin() + bonds.start[j + 1], i) - bonds.neighbour.begin();
-}
-
 }  // namespace
 
 template <int Dim>
@@ -55,7 +46,7 @@ std::optional<BondRef> other_end(const Body<Dim>& body, const BondRef& bond) {
   const Index j = bond_end(body, bond).neighbour;
   if (j >= body.count()) return std::nullopt;
   return BondRef{j,
-                 std::visit([&](const auto& bonds) { return other_slot(bonds, bond.particle, j, bond.slot); },
+                 std::visit([&](const auto& bonds) { return partner_slot(bonds, bond.particle, j, bond.slot); },
                             body.bonds)};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
+#include "partner_slot.hpp"
 #include "perimode/bonds/bonds.hpp"
 #include "perimode/bonds/crossing.hpp"
 
@@ -15,17 +16,6 @@ void clear_bit(GridBonds<Dim>& bonds, Index i, Offset slot) {
 template <int Dim>
 void clear_bit(CloudBonds<Dim>& bonds, Index, Offset slot) {
   bonds.alive[slot / 64] &= ~(std::uint64_t{1} << (slot % 64));
-}
-
-/// The same bond seen from its other end; a grid bond's partner slot is the opposite offset.
-template <int Dim>
-Offset partner_slot(const GridBonds<Dim>& bonds, Index, Index, Offset slot) {
-  return bonds.family.size() - 1 - slot;
-}
-template <int Dim>
-Offset partner_slot(const CloudBonds<Dim>& bonds, Index i, Index j, Offset) {
-  const auto first = bonds.neighbour.begin() + bonds.start[j];
-  return std::lower_bound(first, bonds.neighbour.begin() + bonds.start[j + 1], i) - bonds.neighbour.begin();
 }
 
 }  // namespace
