@@ -45,9 +45,9 @@ template <int Dim>
 std::optional<BondRef> other_end(const Body<Dim>& body, const BondRef& bond) {
   const Index j = bond_end(body, bond).neighbour;
   if (j >= body.count()) return std::nullopt;
-  return BondRef{j,
-                 std::visit([&](const auto& bonds) { return partner_slot(bonds, bond.particle, j, bond.slot); },
-                            body.bonds)};
+  return BondRef{
+      j, std::visit([&](const auto& bonds) { return partner_slot(bonds, bond.particle, j, bond.slot); },
+                    body.bonds)};
 }
 
 template <int Dim>

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
-
 #include "partner_slot.hpp"
 #include "perimode/bonds/bonds.hpp"
 #include "perimode/bonds/crossing.hpp"
