@@ -127,6 +127,7 @@ Index Equilibrium<Dim>::mechanism_dof() const {
   if (body_->boundary.free > most_dofs_to_order[Dim - 1]) return -1;
   Csr k = free_matrix(*body_, *pins_);
   std::vector<Index> order = elimination_order(*body_, k);
+  if (predict_fill_with_order(k, order).peak_bytes > most_factor_bytes) return -1;
   UpdatedSolverOptions options;
   options.only = SolveWay::refactor;
   UpdatedSolver solver(product_, std::move(k), std::move(order), options);

@@ -23,8 +23,8 @@ namespace perimode {
 /// motion follow their functions of time; bonds break within a step until none is over-stretched.
 enum class QuasistaticControl { event, steps };
 
-/// What becomes of a piece that the breaks leave without support: held by springs where it could move, or
-/// removed with its bonds and loads.
+/// What becomes of a piece that the breaks leave without support: held by springs where it could move, or,
+/// where no bond ties it to the rest, removed: its loads dropped, all of it at rest, its bonds left alone.
 enum class LoosePieces { hold, remove };
 
 struct QuasistaticStop {
