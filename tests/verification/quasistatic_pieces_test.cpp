@@ -95,15 +95,14 @@ TEST(QuasistaticPieces, WithoutSupportAreHeldOrRemoved) {
     EXPECT_FALSE(island->loaded);
     EXPECT_LT(island->event, path.rows.back().event);
   }
-  // The paths part where the first piece is removed with its bonds: hinged ones may have been stretched.
-  const auto first = static_cast<std::size_t>(paths[0].loose.front().event);
-  EXPECT_EQ(paths[1].loose.front().event, paths[0].loose.front().event);
-  for (std::size_t n = 0; n < first; ++n) {
+  // Nothing loads the pieces, so what becomes of them changes nothing else; no bond breaks but by stretch.
+  EXPECT_EQ(paths[1].result.broken_bonds, paths[0].result.broken_bonds);
+  ASSERT_EQ(paths[1].rows.size(), paths[0].rows.size());
+  for (std::size_t n = 0; n < paths[0].rows.size(); ++n) {
     const QuasistaticRow &held = paths[0].rows[n], &removed = paths[1].rows[n];
-    EXPECT_NEAR(removed.load_factor, held.load_factor, 1e-7 * held.load_factor) << "event " << n + 1;
-    EXPECT_NEAR(removed.stored_energy, held.stored_energy, 1e-7 * held.stored_energy) << "event " << n + 1;
+    EXPECT_NEAR(removed.load_factor, held.load_factor, 1e-6 * held.load_factor) << "event " << n + 1;
+    EXPECT_NEAR(removed.stored_energy, held.stored_energy, 1e-6 * held.stored_energy) << "event " << n + 1;
   }
-  EXPECT_GT(paths[1].result.broken_bonds, paths[0].result.broken_bonds);
 }
 
 TEST(QuasistaticPieces, GoOnUntilNothingIsStretchedWhenSeparationDoesNotStopThem) {
