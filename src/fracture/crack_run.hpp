@@ -77,7 +77,7 @@ class CrackRun {
   [[nodiscard]] const Sink& sink() const { return *sink_; }
   [[nodiscard]] Offset broken() const { return result_.broken_bonds; }
   [[nodiscard]] double peak_force() const { return peak_force_; }
-  /// Strain energy under the first driving in full, J: what an energy counts as nothing beside. Set once.
+  /// steps: largest strain energy so far per square of the load factor, J: beside which an energy is nothing.
   [[nodiscard]] double unit_energy() const { return unit_energy_; }
   void set_unit_energy(double energy) { unit_energy_ = energy; }
   QuasistaticResult& result() { return result_; }

@@ -51,7 +51,7 @@ struct QuasistaticOptions {
   Index break_at_once = 1;  ///< steps: the worst so many over-stretched bonds break between solutions; 0: all
   UpdatedSolverOptions solver = {};
   bool matrix_free = false;  ///< no factor: conjugate gradients on the operator (also chosen where none fits)
-  bool griffith = false;     ///< also the Griffith load of the first pre-crack (griffith.hpp), before the run
+  bool griffith = false;     ///< for the program: also griffith_load (griffith.hpp); a run does not read it
   std::int64_t fields_every = 0;              ///< events (steps); 0: the first and last state alone
   std::int64_t checkpoint_every = 0;          ///< events (steps); 0: none but at an interruption
   std::vector<double> critical_stretch = {};  ///< per block
@@ -63,7 +63,7 @@ struct QuasistaticOptions {
 struct QuasistaticRow {
   std::int64_t event = 0;     ///< from 1; steps: number of the step
   double time = 0.0;          ///< steps
-  double load_factor = 0.0;   ///< steps: 1
+  double load_factor = 0.0;   ///< steps: of the loads (without loads, the given motion) in full
   double displacement = 0.0;  ///< f.u/|f| of the loads; without loads, load_factor |g| of the given motion, m
   double force = 0.0;         ///< the force that works along it: load_factor |f|; without loads r.g/|g|, N
   /// Sum of the magnitudes of the loads now (without loads: of the reaction along the given motion), N, and
@@ -130,13 +130,13 @@ struct QuasistaticObserver {
   std::function<void(const QuasistaticFrame<Dim>&)> fields;
   std::function<void(const LoosePiece&)> loose;
   std::function<void(const IntegratorState&)> checkpoint;
-  std::function<bool()>
-      stop;  ///< asked after every event; true: a checkpoint is made, the run is interrupted
+  /// Asked after every event; true: a checkpoint is made and the run ends as interrupted.
+  std::function<bool()> stop;
 };
 
 /// separated, events, load_drop: as QuasistaticStop. done: the last step. unstretched: no bond that may break
 /// is stretched (all is in compression, or protected). dead_loads: the dead loads alone break the body.
-/// not_converged: a residual, or bonds that go on breaking within a step without end.
+/// not_converged: a residual, or a mechanism that was not found.
 enum class QuasistaticStatus {
   separated,
   events,
