@@ -205,17 +205,14 @@ void CrackRun<Dim>::clear_bonds(const std::vector<BondRef>& bonds) {
   const std::vector<BondState> states = bond_states<Dim>(*body_, bonds, at);
   broken_area_ += crack_area(*body_, options_->area, std::span<const BondRef>(bonds));
   for (std::size_t b = 0; b < bonds.size(); ++b) {
-    for_each_bond(body_->bonds, bonds[b].particle, Which::alive, [&](const BondEnd<Dim>& end) {
-      if (end.slot != bonds[b].slot) return;
-      BrokenBond<Dim> broken;
-      broken.event = label_;
-      broken.first = bonds[b].particle;
-      broken.second = owner(body_->bonds, end.neighbour, body_->count());
-      broken.middle = body_->particles.position[bonds[b].particle] + 0.5 * end.xi;
-      broken.energy =
-          0.5 * states[b].share * states[b].stiffness * states[b].elongation * states[b].elongation;
-      unreported_.push_back(broken);
-    });
+    const BondEnd<Dim> end = bond_end(*body_, bonds[b]);
+    BrokenBond<Dim> broken;
+    broken.event = label_;
+    broken.first = bonds[b].particle;
+    broken.second = owner(body_->bonds, end.neighbour, body_->count());
+    broken.middle = body_->particles.position[bonds[b].particle] + 0.5 * end.xi;
+    broken.energy = 0.5 * states[b].share * states[b].stiffness * states[b].elongation * states[b].elongation;
+    unreported_.push_back(broken);
   }
   ledger_.leave(states);
   left_.insert(left_.end(), bonds.begin(), bonds.end());
@@ -230,10 +227,7 @@ void CrackRun<Dim>::break_bonds(const std::vector<BondRef>& bonds) {
   };
   std::vector<Ends> ends;
   for (const BondRef& bond : bonds) {
-    for_each_bond(body_->bonds, bond.particle, Which::alive, [&](const BondEnd<Dim>& end) {
-      if (end.slot == bond.slot)
-        ends.push_back({bond.particle, owner(body_->bonds, end.neighbour, body_->count())});
-    });
+    ends.push_back({bond.particle, owner(body_->bonds, bond_end(*body_, bond).neighbour, body_->count())});
   }
   clear_bonds(bonds);
   for (const Ends& e : ends) {
