@@ -126,7 +126,11 @@ void set_kernels(BondConstants& constants, const Body<Dim>& body, const std::vec
     for (const auto& block : blocks) {
       const auto& m = block.material;
       const double c0 = micromodulus_constant(m.micromodulus, m.youngs_modulus, f.horizon, continuum);
-      for (double r : f.length) constants.kernel.push_back(micromodulus(m.micromodulus, c0, r, f.horizon));
+      try {
+        for (const double shape : kernel_shapes(m.micromodulus, f)) constants.kernel.push_back(c0 * shape);
+      } catch (const Error& error) {
+        throw at(error, m.where);
+      }
     }
     return;
   }

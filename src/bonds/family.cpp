@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
+#include <numeric>
+#include <utility>
 
 #include "perimode/core/error.hpp"
 
@@ -21,6 +22,24 @@ double share(double length, double spacing, double horizon, VolumeCorrection cor
   if (correction == VolumeCorrection::none) return length <= horizon * (1.0 + tie) ? 1.0 : 0.0;
   const double inside = (horizon + 0.5 * spacing - length) / spacing;
   return inside > tie ? std::min(1.0, inside) : 0.0;
+}
+
+/// Orbits from the sorted absolute offset of every member.
+template <int Dim>
+void number_orbits(Family<Dim>& family, const std::vector<std::array<int, Dim>>& keys) {
+  const auto square = [](const std::array<int, Dim>& key) {
+    return std::inner_product(key.begin(), key.end(), key.begin(), 0LL);
+  };
+  const auto before = [&](const std::array<int, Dim>& a, const std::array<int, Dim>& b) {
+    return std::pair(square(a), a) < std::pair(square(b), b);
+  };
+  family.shell = keys;
+  std::sort(family.shell.begin(), family.shell.end(), before);
+  family.shell.erase(std::unique(family.shell.begin(), family.shell.end()), family.shell.end());
+  for (const auto& key : keys) {
+    const auto at = std::lower_bound(family.shell.begin(), family.shell.end(), key, before);
+    family.orbit.push_back(static_cast<int>(at - family.shell.begin()));
+  }
 }
 
 }  // namespace
@@ -47,7 +66,7 @@ Family<Dim> make_family(double spacing, double horizon, VolumeCorrection correct
   family.spacing = spacing;
   family.horizon = horizon;
   const int m = static_cast<int>(std::ceil(layers * (1.0 + tie))) + 1;
-  std::map<std::array<int, Dim>, int> orbits;
+  std::vector<std::array<int, Dim>> keys;
   std::array<int, Dim> o;
   o.fill(-m);
   for (bool more = true; more;) {
@@ -59,11 +78,10 @@ Family<Dim> make_family(double spacing, double horizon, VolumeCorrection correct
       std::array<int, Dim> key = o;
       for (int& c : key) c = std::abs(c);
       std::sort(key.rbegin(), key.rend());
-      const auto orbit = orbits.emplace(key, static_cast<int>(orbits.size())).first->second;
+      keys.push_back(key);
       family.offset.push_back(o);
       family.length.push_back(length);
       family.weight.push_back(beta + (self_cell && square == 1.0 ? 0.5 : 0.0));
-      family.orbit.push_back(orbit);
     }
     more = false;
     for (int& c : o) {  // x runs fastest
@@ -80,6 +98,7 @@ Family<Dim> make_family(double spacing, double horizon, VolumeCorrection correct
                    "give a ratio of at least 1",
                    {}});
   }
+  number_orbits<Dim>(family, keys);
   return family;
 }
 

@@ -226,6 +226,7 @@ void CrackRun<Dim>::break_bonds(const std::vector<BondRef>& bonds) {
     Index first, second;
   };
   std::vector<Ends> ends;
+  ends.reserve(bonds.size());
   for (const BondRef& bond : bonds) {
     ends.push_back({bond.particle, owner(body_->bonds, bond_end(*body_, bond).neighbour, body_->count())});
   }

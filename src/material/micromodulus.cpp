@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 namespace perimode {
 namespace {
@@ -53,6 +56,8 @@ double gaussian_moment(double p, int n) {
 double shape_moment(const Micromodulus& micromodulus, int n) {
   switch (micromodulus.kernel) {
     case Kernel::constant:
+    case Kernel::fourier:
+    case Kernel::shells:
       return 1.0 / (n + 1);
     case Kernel::conical:
       return 1.0 / ((n + 1.0) * (n + 2.0));
@@ -63,6 +68,52 @@ double shape_moment(const Micromodulus& micromodulus, int n) {
       return 1.0 / n;
   }
   return 0.0;
+}
+
+double fourier_series(const Micromodulus& m, double distance) {
+  double sum = m.a0;
+  for (std::size_t j = 0; j < m.a.size(); ++j)
+    sum += m.a[j] * std::cos(static_cast<double>(j + 1) * m.w * distance);
+  return sum;
+}
+
+std::string offset_text(const std::array<int, 3>& offset, int dimension) {
+  std::string text = "(";
+  for (int a = 0; a < dimension; ++a)
+    text += fmt::format("{}{}", a > 0 ? ", " : "", offset[static_cast<std::size_t>(a)]);
+  return text + ")";
+}
+
+/// alpha of every orbit of the family, each found once among the shells.
+template <int Dim>
+std::vector<double> alpha_of_orbits(const Micromodulus& m, const Family<Dim>& family) {
+  std::map<std::array<int, 3>, double> table;
+  for (const Shell& shell : m.shells) {
+    if (!table.emplace(shell.offset, shell.alpha).second) {
+      invalid_input({"one coefficient for every orbit of the family",
+                     fmt::format("two for {}", offset_text(shell.offset, Dim)), "remove one"});
+    }
+  }
+  std::vector<double> alpha;
+  for (const auto& own : family.shell) {
+    std::array<int, 3> offset = {};
+    std::copy(own.begin(), own.end(), offset.begin());
+    const auto found = table.find(offset);
+    if (found == table.end()) {
+      invalid_input(
+          {fmt::format("a coefficient for each of the {} orbits of the family", family.shell.size()),
+           fmt::format("none for {}", offset_text(offset, Dim)),
+           "use the table made for this horizon, or the horizon of the table"});
+    }
+    alpha.push_back(found->second);
+    table.erase(found);
+  }
+  if (!table.empty()) {
+    invalid_input({fmt::format("coefficients for the {} orbits of the family", family.shell.size()),
+                   fmt::format("one for {}, which is none of them", offset_text(table.begin()->first, Dim)),
+                   "use the table made for this horizon, or the horizon of the table"});
+  }
+  return alpha;
 }
 
 }  // namespace
@@ -96,9 +147,39 @@ double kernel_shape(const Micromodulus& micromodulus, double r, double horizon) 
       return std::exp(-(micromodulus.p * s) * (micromodulus.p * s));
     case Kernel::inverse_distance:
       return 1.0 / s;
+    case Kernel::fourier:
+      require_positive("the spacing of a fourier micromodulus", micromodulus.spacing,
+                       "give that of the grid");
+      return fourier_series(micromodulus, r / micromodulus.spacing);
+    case Kernel::shells:
+      invalid_input({"a kernel that is a function of distance", "shells", "use the table of the lattice"});
   }
   return 0.0;
 }
+
+bool is_lattice_kernel(Kernel kernel) { return kernel == Kernel::fourier || kernel == Kernel::shells; }
+
+template <int Dim>
+std::vector<double> kernel_shapes(const Micromodulus& m, const Family<Dim>& family) {
+  std::vector<double> shapes(family.length.size());
+  if (m.kernel == Kernel::shells) {
+    const std::vector<double> alpha = alpha_of_orbits(m, family);
+    for (std::size_t j = 0; j < shapes.size(); ++j)
+      shapes[j] = alpha[static_cast<std::size_t>(family.orbit[j])];
+    return shapes;
+  }
+  if (m.kernel == Kernel::fourier && !(std::abs(m.spacing - family.spacing) <= 1e-9 * family.spacing)) {
+    invalid_input({fmt::format("the spacing {:.6g} m of the grid in a fourier micromodulus", family.spacing),
+                   fmt::format("{:.6g} m", m.spacing), "give that of the grid"});
+  }
+  std::transform(family.length.begin(), family.length.end(), shapes.begin(),
+                 [&](double r) { return kernel_shape(m, r, family.horizon); });
+  return shapes;
+}
+
+template std::vector<double> kernel_shapes<1>(const Micromodulus&, const Family<1>&);
+template std::vector<double> kernel_shapes<2>(const Micromodulus&, const Family<2>&);
+template std::vector<double> kernel_shapes<3>(const Micromodulus&, const Family<3>&);
 
 double micromodulus_constant(const Micromodulus& micromodulus, double youngs_modulus, double horizon,
                              const Continuum& continuum) {

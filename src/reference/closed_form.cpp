@@ -12,7 +12,7 @@
 #include <tuple>
 #include <utility>
 
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 #include "perimode/reference/separation.hpp"
 
 namespace perimode {

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "dispersion/direction_mean.hpp"
 #include "perimode/material/micromodulus.hpp"
-#include "reference/quadrature.hpp"
 
 namespace perimode {
 namespace {
@@ -51,6 +51,7 @@ template <int Dim>
 double lattice_lambda(const Micromodulus& kernel, const Family<Dim>& family, const Point<Dim>& k) {
   const double a = scalar_constant(kernel, family.horizon, Dim);
   const double volume = std::pow(family.spacing, Dim);
+  const std::vector<double> shape = kernel_shapes(kernel, family);
   double lambda = 0.0;
   for (std::size_t j = 0; j < family.length.size(); ++j) {
     double phase = 0.0;
@@ -58,7 +59,7 @@ double lattice_lambda(const Micromodulus& kernel, const Family<Dim>& family, con
       phase += k[axis] * family.spacing * family.offset[j][static_cast<std::size_t>(axis)];
     }
     const double r = family.length[j], s = std::sin(0.5 * phase);
-    lambda += a * kernel_shape(kernel, r, family.horizon) / r * family.weight[j] * volume * 2.0 * s * s;
+    lambda += a * shape[j] / r * family.weight[j] * volume * 2.0 * s * s;
   }
   return lambda;
 }
@@ -69,15 +70,14 @@ template double lattice_lambda<3>(const Micromodulus&, const Family<3>&, const P
 
 double continuum_lambda(const Micromodulus& kernel, double horizon, int dimension, double k) {
   const double a = scalar_constant(kernel, horizon, dimension);
-  return reference::radial_integral(reference::DirectionWeight::one, dimension, horizon, k,
-                                    reference::panels_of(kernel),
-                                    [&](double r) { return a * kernel_shape(kernel, r, horizon) / r; });
+  return radial_integral(DirectionWeight::one, dimension, horizon, k, panels_of(kernel, horizon),
+                         [&](double r) { return a * kernel_shape(kernel, r, horizon) / r; });
 }
 
 double scabbia_lambda(double horizon, double k) {
   const double z = std::abs(k) * horizon;
   const double sine_integral =
-      reference::integrate(0.0, z, 1 + static_cast<int>(z / 4.0), [](double t) { return std::sin(t) / t; });
+      integrate(0.0, z, 1 + static_cast<int>(z / 4.0), [](double t) { return std::sin(t) / t; });
   const double s = std::sin(0.5 * z);
   return 2.0 / (horizon * horizon) * (z * sine_integral - 2.0 * s * s);
 }

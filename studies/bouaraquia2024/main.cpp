@@ -20,7 +20,7 @@ using perimode::Kernel;
 using perimode::Micromodulus;
 using perimode::Table;
 
-constexpr Micromodulus constant{Kernel::constant, 0.0};
+const Micromodulus constant{Kernel::constant, 0.0};
 Micromodulus gaussian(double p) { return {Kernel::gaussian, p}; }
 
 std::vector<BarRun> coarse_runs() {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "perimode/dispersion/symbol.hpp"
 #include "perimode/dynamics/transient.hpp"
-#include "perimode/reference/plane_wave.hpp"
 
 namespace perimode::studies {
 namespace {

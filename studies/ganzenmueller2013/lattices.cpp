@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "perimode/assembly/fields.hpp"
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 #include "pulse.hpp"
 #include "studies/common/models.hpp"
 #include "studies/common/release.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "perimode/dispersion/symbol.hpp"
 #include "perimode/modal/modes.hpp"
 #include "perimode/reference/closed_form.hpp"
-#include "perimode/reference/plane_wave.hpp"
 #include "studies/common/models.hpp"
 
 namespace perimode::studies {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "perimode/assembly/assemble.hpp"
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 #include "support/models.hpp"
 
 namespace perimode {

@@ -147,8 +147,8 @@ TEST(Scabbia, SurfaceNodesKeepABiasAtFixedHorizon) {
 
 constexpr double bar_step = 1e-8, unit_strain = 1e-3;
 constexpr int every = 10;  // steps; the independent computation sampled so
-constexpr Micromodulus constant_kernel{Kernel::constant, 0.0};
-constexpr Micromodulus gaussian_kernel{Kernel::gaussian, 2.0};
+const Micromodulus constant_kernel{Kernel::constant, 0.0};
+const Micromodulus gaussian_kernel{Kernel::gaussian, 2.0};
 
 struct Snap {
   Model model;

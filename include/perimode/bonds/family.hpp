@@ -21,7 +21,10 @@ struct Family {
   std::vector<std::array<int, Dim>> offset;  ///< in cells, x first
   std::vector<double> length;                ///< |xi| = spacing |offset|, m
   std::vector<double> weight;                ///< beta: share of the cell inside the horizon
-  std::vector<int> orbit;                    ///< orbits share the sorted absolute offset; from 0
+  std::vector<int> orbit;                    ///< number of each member's orbit: its place in `shell`
+  /// The orbits: offsets that share their absolute components, x >= y >= z >= 0, in ascending order of
+  /// length, those of one length ((2,2,1) and (3,0,0)) lexicographically.
+  std::vector<std::array<int, Dim>> shell;
 
   [[nodiscard]] int size() const { return static_cast<int>(offset.size()); }
   /// Largest |component| of an offset: how many layers of cells a bond can cross.

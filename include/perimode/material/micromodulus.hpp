@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <vector>
+
+#include "perimode/bonds/family.hpp"
 #include "perimode/material/material.hpp"
 
 namespace perimode {
@@ -22,12 +25,24 @@ struct Continuum {
 [[nodiscard]] double dilation_energy(double youngs_modulus, const Continuum& continuum);
 
 /// g(r) of the kernel (dimensionless); 0 beyond the horizon for the conical kernel, which would turn
-/// negative there, and continued by its formula for the others. @pre r > 0.
+/// negative there, and continued by its formula for the others. Throws invalid_input for shells, which are no
+/// function of r, and for a fourier kernel without its spacing. @pre r > 0.
 [[nodiscard]] double kernel_shape(const Micromodulus& micromodulus, double r, double horizon);
+
+/// The shape of every member of a family: g(length), or the alpha of its orbit. Throws invalid_input: shells
+/// that lack an orbit of the family or hold another, a fourier kernel of another spacing.
+/// Cost O(family (log shells + a)).
+template <int Dim>
+[[nodiscard]] std::vector<double> kernel_shapes(const Micromodulus& micromodulus, const Family<Dim>& family);
+
+/// Whether the kernel is a table or series of a lattice (fourier, shells): multipliers of the constant
+/// kernel's c0 that are never renormalised.
+[[nodiscard]] bool is_lattice_kernel(Kernel kernel);
 
 /// c0 in c(r) = c0 g(r), N/m6 (3D; times m per section otherwise), from the moment integral
 ///   (1/4) int c(r) r dV = dilation_energy   over the continuum family 0 < r <= horizon.
-/// Gives [bouaraquia2024] eqs. (21)-(34) for the constant and Gaussian kernels. Relative error < 1e-13.
+/// Gives [bouaraquia2024] eqs. (21)-(34) for the constant and Gaussian kernels; fourier and shells have that
+/// of the constant kernel. Relative error < 1e-13.
 [[nodiscard]] double micromodulus_constant(const Micromodulus& micromodulus, double youngs_modulus,
                                            double horizon, const Continuum& continuum);
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 
 namespace perimode {
 namespace {

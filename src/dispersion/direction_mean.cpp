@@ -1,32 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "reference/quadrature.hpp"
+#include "dispersion/direction_mean.hpp"
 
-#include <cstddef>
-
-namespace perimode::reference {
+namespace perimode {
 namespace {
-
-constexpr int order = 16;
-
-std::array<QuadratureNode, order> make_rule() {
-  std::array<QuadratureNode, order> rule;
-  for (int i = 0; i < order; ++i) {
-    double x = -std::cos(std::numbers::pi * (i + 0.75) / (order + 0.5));
-    double slope = 0.0;
-    for (int iteration = 0; iteration < 8; ++iteration) {  // Newton; four steps suffice
-      double previous = 1.0, value = x;
-      for (int n = 2; n <= order; ++n) {
-        const double next = ((2 * n - 1) * x * value - (n - 1) * previous) / n;
-        previous = value;
-        value = next;
-      }
-      slope = order * (x * value - previous) / (x * x - 1.0);
-      x -= value / slope;
-    }
-    rule[static_cast<std::size_t>(i)] = {x, 2.0 / ((1.0 - x * x) * slope * slope)};
-  }
-  return rule;
-}
 
 double weight_of(DirectionWeight weight, int dimension, double mu) {
   switch (weight) {
@@ -48,11 +24,6 @@ double one_minus_cos(double x) {
 
 }  // namespace
 
-const std::array<QuadratureNode, 16>& gauss_legendre() {
-  static const std::array<QuadratureNode, order> rule = make_rule();
-  return rule;
-}
-
 double direction_mean(DirectionWeight weight, int dimension, double z) {
   const auto f = [&](double mu) { return weight_of(weight, dimension, mu) * one_minus_cos(z * mu); };
   if (dimension == 1) return f(1.0);
@@ -67,4 +38,4 @@ double direction_mean(DirectionWeight weight, int dimension, double z) {
   return integrate(0.0, 1.0, 1 + static_cast<int>(std::abs(z) / 4.0), f);
 }
 
-}  // namespace perimode::reference
+}  // namespace perimode

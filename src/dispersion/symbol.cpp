@@ -1,77 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 
 #include <cmath>
 #include <cstddef>
 
-#include "reference/quadrature.hpp"
-
 namespace perimode {
 namespace {
-
-void require_shear_exists(const Medium& medium, Branch branch) {
-  if (branch == Branch::shear && medium.continuum.dimension == 1) {
-    invalid_input({"a pressure wave in one dimension", "a shear wave", "a bar has one branch only"});
-  }
-}
 
 double cell_volume(const Medium& medium, double spacing, int dimension) {
   return medium.continuum.section * std::pow(spacing, dimension);
 }
 
-double constant_of(const Medium& medium) {
-  return micromodulus_constant(medium.material.micromodulus, medium.material.youngs_modulus, medium.horizon,
-                               medium.continuum);
-}
-
 }  // namespace
-
-double classical_speed(const Medium& medium, Branch branch) {
-  require_shear_exists(medium, branch);
-  const double bar = std::sqrt(medium.material.youngs_modulus / medium.material.density);
-  if (medium.continuum.dimension == 1) return bar;
-  const bool pressure = branch == Branch::pressure;
-  const bool plane_stress = medium.continuum.dimension == 2 && medium.continuum.plane == Plane::stress;
-  if (plane_stress) return bar * std::sqrt(pressure ? 9.0 / 8.0 : 3.0 / 8.0);
-  return bar * std::sqrt(pressure ? 6.0 / 5.0 : 2.0 / 5.0);
-}
-
-double continuum_frequency(const Medium& medium, Branch branch, double k) {
-  require_shear_exists(medium, branch);
-  const Micromodulus& kernel = medium.material.micromodulus;
-  const double scale = constant_of(medium) * medium.continuum.section / medium.material.density;
-  const auto weight = branch == Branch::pressure ? reference::DirectionWeight::longitudinal
-                                                 : reference::DirectionWeight::transverse;
-  const double squared = reference::radial_integral(
-      weight, medium.continuum.dimension, medium.horizon, k, reference::panels_of(kernel),
-      [&](double r) { return scale * kernel_shape(kernel, r, medium.horizon) / r; });
-  return std::sqrt(squared);
-}
 
 template <int Dim>
 double calibration_factor(const Medium& medium, const Family<Dim>& family) {
-  const double c0 = constant_of(medium);
+  const double c0 = micromodulus_constant(medium);
   const double volume = cell_volume(medium, family.spacing, Dim);
+  const std::vector<double> shape = kernel_shapes(medium.material.micromodulus, family);
   double energy = 0.0;
-  for (std::size_t j = 0; j < family.length.size(); ++j) {
-    const double r = family.length[j];
-    energy += 0.25 * micromodulus(medium.material.micromodulus, c0, r, medium.horizon) * r *
-              family.weight[j] * volume;
-  }
+  for (std::size_t j = 0; j < shape.size(); ++j)
+    energy += 0.25 * c0 * shape[j] * family.length[j] * family.weight[j] * volume;
   return dilation_energy(medium.material.youngs_modulus, medium.continuum) / energy;
 }
 
 template <int Dim>
 std::vector<double> bond_rates(const Medium& medium, const Family<Dim>& family, Calibration calibration) {
   const double factor = calibration == Calibration::continuum ? 1.0 : calibration_factor<Dim>(medium, family);
-  const double c0 = factor * constant_of(medium);
+  const double c0 = factor * micromodulus_constant(medium);
   const double volume_per_density = cell_volume(medium, family.spacing, Dim) / medium.material.density;
-  std::vector<double> rates(family.length.size());
-  for (std::size_t j = 0; j < rates.size(); ++j) {
-    const double r = family.length[j];
-    rates[j] = micromodulus(medium.material.micromodulus, c0, r, medium.horizon) * family.weight[j] *
-               volume_per_density / r;
-  }
+  std::vector<double> rates = kernel_shapes(medium.material.micromodulus, family);
+  for (std::size_t j = 0; j < rates.size(); ++j)
+    rates[j] *= c0 * family.weight[j] * volume_per_density / family.length[j];
   return rates;
 }
 

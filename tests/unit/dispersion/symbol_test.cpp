@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "perimode/reference/plane_wave.hpp"
+#include "perimode/dispersion/symbol.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,33 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <numbers>
 
+#include "core/quadrature.hpp"
 #include "perimode/material/material.hpp"
 
-namespace perimode::reference {
-
-struct QuadratureNode {
-  double x = 0.0;  ///< in (-1, 1)
-  double weight = 0.0;
-};
-
-/// Nodes of the 16-point Gauss-Legendre rule.
-const std::array<QuadratureNode, 16>& gauss_legendre();
-
-/// Composite rule. For cos(k x) with at most 4 rad a panel the error is below rounding.
-template <class Function>
-double integrate(double lower, double upper, int panels, Function f) {
-  const double half = 0.5 * (upper - lower) / panels;
-  double sum = 0.0;
-  for (int panel = 0; panel < panels; ++panel) {
-    const double centre = lower + (2 * panel + 1) * half;
-    for (const QuadratureNode& node : gauss_legendre()) sum += node.weight * f(centre + half * node.x);
-  }
-  return half * sum;
-}
+namespace perimode {
 
 /// What is averaged over all directions n of a space of `dimension` dimensions, mu = n.e.
 enum class DirectionWeight {
@@ -40,9 +20,14 @@ enum class DirectionWeight {
 /// 1/2 - J1(z)/z. All terms are positive: no cancellation at small z.
 double direction_mean(DirectionWeight weight, int dimension, double z);
 
-/// Panels that resolve the kernel itself: one, or one per unit of p for the Gaussian.
-inline int panels_of(const Micromodulus& micromodulus) {
-  return micromodulus.kernel == Kernel::gaussian ? 1 + static_cast<int>(micromodulus.p) : 1;
+/// Panels that resolve the kernel itself within the horizon: one, one per unit of p for the Gaussian, one per
+/// three radians of a series' last cosine.
+inline int panels_of(const Micromodulus& m, double horizon) {
+  if (m.kernel == Kernel::gaussian) return 1 + static_cast<int>(m.p);
+  if (m.kernel == Kernel::fourier && m.spacing > 0.0)
+    return 1 +
+           static_cast<int>(static_cast<double>(m.a.size()) * std::abs(m.w) * horizon / (3.0 * m.spacing));
+  return 1;
 }
 
 /// int_0^horizon f(r) <w (1 - cos(k r mu))> dV, dV = |S| r^(dimension-1) dr with |S| = 2, 2 pi, 4 pi.
@@ -59,4 +44,4 @@ double radial_integral(DirectionWeight weight, int dimension, double horizon, do
          });
 }
 
-}  // namespace perimode::reference
+}  // namespace perimode
