@@ -74,6 +74,33 @@ Particles<Dim> make_particles(const Model& model) {
   return particles;
 }
 
+/// The period of a cloud per axis, 0 where it does not repeat itself.
+template <int Dim>
+Point<Dim> cloud_period(const Model& model, const Particles<Dim>& particles) {
+  const auto& spec = std::get<CloudSpec>(model.particles);
+  Point<Dim> period = Point<Dim>::Zero();
+  for (int a = 0; a < Dim; ++a) {
+    if (!model.periodic[a]) continue;
+    const double given = static_cast<std::size_t>(a) < spec.period.size() ? spec.period[a] : 0.0;
+    if (!(given > 0.0) || !std::isfinite(given)) {
+      invalid_input({fmt::format("a period > 0 (m) of the cloud along {}, which is periodic", "xyz"[a]),
+                     spec.period.empty() ? "none" : fmt::format("{}", given),
+                     "write particles: { file: cloud.csv, period: [..] }, a number per axis", spec.where});
+    }
+    const auto [low, high] =
+        std::minmax_element(particles.position.begin(), particles.position.end(),
+                            [a](const Point<Dim>& x, const Point<Dim>& y) { return x[a] < y[a]; });
+    const double extent = (*high)[a] - (*low)[a];
+    if (!(extent < given * (1.0 - 1e-9))) {
+      invalid_input({fmt::format("particles that lie within one period along {}, {:.6g} m", "xyz"[a], given),
+                     fmt::format("an extent of {:.6g} m", extent),
+                     "leave out particles that are images of others, or lengthen the period", spec.where});
+    }
+    period[a] = given;
+  }
+  return period;
+}
+
 template <int Dim>
 Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
   const HorizonSpec& h = model.horizon;
@@ -98,14 +125,15 @@ Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
     }
     const bool walls = std::any_of(model.boundary.begin(), model.boundary.end(),
                                    [](const auto& c) { return std::holds_alternative<Wall>(c.what); });
-    if (walls || model.periodic[0] || model.periodic[1] || model.periodic[2]) {
-      invalid_input({"a grid where there are walls or periodic axes", "a cloud",
-                     "use a grid, or fix regions of the cloud", std::get<CloudSpec>(model.particles).where});
+    if (walls) {
+      invalid_input({"a grid where there are walls", "a cloud", "use a grid, or fix regions of the cloud",
+                     std::get<CloudSpec>(model.particles).where});
     }
+    const Point<Dim> period = cloud_period(model, particles);
     std::vector<double> horizon(particles.count(), h.value);
     if (h.rule == HorizonSpec::Rule::neighbours)
-      horizon = cloud_horizons(particles, static_cast<int>(h.value));
-    return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model));
+      horizon = cloud_horizons(particles, static_cast<int>(h.value), period);
+    return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model), period);
   } catch (const Error& error) {
     throw at(error, h.where);
   }
