@@ -193,6 +193,30 @@ void calibrate(BondConstants& constants, const Body<Dim>& body, const std::vecto
   }
 }
 
+/// The harmonic mean of a negative and a positive micromodulus is no stiffness of two springs in series.
+template <int Dim>
+void require_equal_signs(const Body<Dim>& body, const std::vector<BlockMaterial>& blocks) {
+  const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds);
+  if (grid == nullptr || blocks.size() < 2 || !softening(body)) return;
+  const auto& block = body.particles.block;
+  const std::vector<double>& kernel = body.constants.kernel;
+  const auto size = static_cast<std::size_t>(body.constants.family_size);
+  for (Index i = 0; i < body.count(); ++i) {
+    for_each_bond(*grid, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Index j = owner(body.bonds, end.neighbour, body.count());
+      const auto member = static_cast<std::size_t>(end.slot);
+      const double ci = kernel[static_cast<std::size_t>(block[i]) * size + member];
+      const double cj = kernel[static_cast<std::size_t>(block[j]) * size + member];
+      if (block[i] == block[j] || (ci < 0.0) == (cj < 0.0) || ci == 0.0 || cj == 0.0) return;
+      const std::size_t negative = static_cast<std::size_t>(ci < 0.0 ? block[i] : block[j]);
+      invalid_input({"micromoduli of one sign for the bonds between two blocks",
+                     fmt::format("{:.4g} and {:.4g} N/m6 at bonds of length {:.6g} m", ci, cj, end.length),
+                     "use kernels of one sign in blocks that touch, or one material",
+                     blocks[negative].material.where});
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -201,6 +225,7 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
     invalid_input({fmt::format("a model of dimension {}", Dim), fmt::format("{}", model.dimension),
                    "build the body for the model's dimension", model.where});
   }
+  require_lattice_kernel_fits(model);
   require_positive(section_of(model), Dim == 1 ? "body.area" : "body.thickness", model.where);
   sink.report("particles");
   Body<Dim> body;
@@ -237,6 +262,7 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
   if (model.calibration == Calibration::discrete_cut) {
     calibrate(body.constants, body, blocks, true, model.material.where);
   }
+  require_equal_signs(body, blocks);
   sink.report("boundary");
   body.boundary = make_boundary_map<Dim>(
       body.particles, body.bonds, model.boundary,
@@ -269,7 +295,7 @@ double bond_stiffness(const Body<Dim>& body, Index i, const BondEnd<Dim>& end) {
     cj *= constants.factor[j];
   }
   double c = 0.5 * (ci + cj);
-  if (block[i] != block[j]) c = ci + cj > 0.0 ? 2.0 * (ci * cj) / (ci + cj) : 0.0;
+  if (block[i] != block[j]) c = ci * cj > 0.0 ? 2.0 * (ci * cj) / (ci + cj) : 0.0;
   return c * end.weight * (body.particles.volume[i] * body.particles.volume[j]) / end.length;
 }
 
