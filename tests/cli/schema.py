@@ -102,7 +102,7 @@ analysis: { modal: , quasistatic: { griffith: true }, transient: { method: hht, 
 """,
     "cloud": """
 title: cloud
-body: { dimension: 2, particles: { file: cloud.csv }, horizon: { neighbours: 2 } }
+body: { dimension: 2, particles: { file: cloud.csv, period: [2, 2.5] }, horizon: { neighbours: 2 }, periodic: [y] }
 material: { youngs_modulus: 68.0e+9, density: 2700 }
 materials: { core: { density: 1000 } }
 boundary: [ { fix: [x], at: { face: x-, depth: 0.1 } } ]

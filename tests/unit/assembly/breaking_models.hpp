@@ -88,6 +88,9 @@ void for_random_bodies(int grids, const Check& check) {
   cloud.model.boundary.push_back({Fix{{0}, Region{FaceRegion{{0, false}, 0, 0.6}, {}}}, {}});
   cloud.model.calibration = Calibration::discrete;
   check(build_body<Dim>(cloud.model));
+  std::get<CloudSpec>(cloud.model.particles).period.assign(Dim, 5.0);
+  for (int a = 0; a < Dim; ++a) cloud.model.periodic[static_cast<std::size_t>(a)] = true;
+  check(build_body<Dim>(cloud.model));
 }
 
 /// All alive bonds from all ends.

@@ -227,6 +227,9 @@ void expect_cloud() {
     expect_forms_equal_the_matrix<Dim>(m);
     m.boundary.push_back({Fix{{0}, Region{FaceRegion{{0, false}, 0, 0.6}, {}}}, {}});
     expect_forms_equal_the_matrix<Dim>(m);
+    std::get<CloudSpec>(m.particles).period.assign(Dim, 5.0);
+    m.periodic[Dim - 1] = true;
+    expect_forms_equal_the_matrix<Dim>(m);
   }
 }
 
