@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -37,11 +38,6 @@ void append(std::vector<T>& to, std::vector<T> from) {
   for (T& item : from) to.push_back(std::move(item));
 }
 
-double stepped(double omega, const DispersionSpec& spec) {
-  return spec.integrator == StepIntegrator::newmark ? newmark_frequency(omega, *spec.time_step)
-                                                    : central_difference_frequency(omega, *spec.time_step);
-}
-
 template <int Dim>
 Json array(const Point<Dim>& point) {
   return std::vector<double>(point.data(), point.data() + Dim);
@@ -50,6 +46,11 @@ Json array(const Point<Dim>& point) {
 Json error_json(const ContourError& error) { return {{"l1", error.l1}, {"l2", error.l2}}; }
 
 }  // namespace
+
+double stepped_frequency(double omega, const DispersionSpec& spec) {
+  return spec.integrator == StepIntegrator::newmark ? newmark_frequency(omega, *spec.time_step)
+                                                    : central_difference_frequency(omega, *spec.time_step);
+}
 
 template <int Dim>
 Table waves_table(const Lattice<Dim>& lattice, const std::vector<PlaneWaves<Dim>>& waves,
@@ -73,7 +74,7 @@ Table waves_table(const Lattice<Dim>& lattice, const std::vector<PlaneWaves<Dim>
       std::vector<TableCell> row = coordinates<Dim>(wave.k);
       append(row, {branch_name(b, Dim), omega, wave.phase_velocity[at], wave.group_velocity[at].norm(),
                    speed * k, continuum[std::min(b, 1)]});
-      if (spec.time_step) row.emplace_back(stepped(omega, spec));
+      if (spec.time_step) row.emplace_back(stepped_frequency(omega, spec));
       if (spec.finite_difference) {
         row.emplace_back(
             finite_difference_frequency(k, speed, lattice.family.spacing, *spec.finite_difference));
@@ -262,6 +263,11 @@ Json optimised_json(const OptimisedReport<Dim>& optimised, const DispersionSpec&
   json["alpha"] = optimised.result.alpha;
   json["bands"] = bands_json(optimised.report.bands);
   json["zone"] = survey_json(optimised.report.survey);
+  if (optimised.critical_stretch != 0.0) {
+    json["critical_stretch"] = {{"original", number(optimised.critical_stretch)},
+                                {"optimised", number(optimised.optimised_critical_stretch)}};
+    if (optimised.fit) json["critical_stretch"]["fitted"] = number(optimised.fitted_critical_stretch);
+  }
   if (!optimised.fit) return json;
   const InfluenceFit& fit = *optimised.fit;
   json["fit"] = {{"a0", fit.micromodulus.a0},
@@ -274,9 +280,6 @@ Json optimised_json(const OptimisedReport<Dim>& optimised, const DispersionSpec&
                  {"error", error_json(optimised.fitted)},
                  {"least_squared", number(optimised.fitted_survey.least_squared)},
                  {"stable_step", number(optimised.fitted_survey.stable_step)}};
-  if (optimised.critical_stretch > 0.0) json["critical_stretch"] = optimised.critical_stretch;
-  if (optimised.fitted_critical_stretch != 0.0)
-    json["fit"]["critical_stretch"] = number(optimised.fitted_critical_stretch);
   return json;
 }
 

@@ -10,6 +10,9 @@
 
 namespace perimode::cli {
 
+/// What the case's integrator and step make of a frequency. @pre spec.time_step.
+[[nodiscard]] double stepped_frequency(double omega, const DispersionSpec& spec);
+
 /// dispersion.csv: a row per wave vector and branch, with the columns that `spec` asks for.
 template <int Dim>
 [[nodiscard]] Table waves_table(const Lattice<Dim>& lattice, const std::vector<PlaneWaves<Dim>>& waves,

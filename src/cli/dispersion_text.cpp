@@ -81,24 +81,23 @@ void errors(fmt::memory_buffer& out, const ContourError& before, const ContourEr
   line(fmt::format("l2 ({})", dimension == 1 ? "square" : "eq. 45"), before.l2, after.l2);
 }
 
-void influence(fmt::memory_buffer& out, const InfluenceFit& fit, const ContourError& error, double stretch) {
+void influence(fmt::memory_buffer& out, const InfluenceFit& fit, const ContourError& error) {
   auto to = std::back_inserter(out);
   fmt::format_to(to, "influence        {:.6g}", fit.micromodulus.a0);
-  for (std::size_t j = 0; j < fit.micromodulus.a.size(); ++j)
+  for (std::size_t j = 0; j < fit.micromodulus.a.size(); ++j) {
     fmt::format_to(to, " {} {:.6g} cos({:.6g} r/dx)", fit.micromodulus.a[j] < 0.0 ? '-' : '+',
                    std::abs(fit.micromodulus.a[j]), static_cast<double>(j + 1) * fit.micromodulus.w);
+  }
   fmt::format_to(
       to,
-      "\n                 off the coefficients by at most {:.3e}; energy {:.6f} of the constant kernel's; "
-      "least {:.4g} at {:.4g} m\n",
-      fit.largest_deviation, fit.energy_ratio, fit.least, fit.least_at);
+      "\n                 off the coefficients by at most {:.3e}; least {:.4g} at {:.4g} m; stores "
+      "{:.6f} of the constant kernel's energy\n",
+      fit.largest_deviation, fit.least, fit.least_at, fit.energy_ratio);
   fmt::format_to(to, "                 contour error l1 {:.6e}, l2 {:.6e}\n", error.l1, error.l2);
-  if (std::isnan(stretch)) {
-    fmt::format_to(
-        to, "                 no critical stretch: its bonds across a crack hold no positive energy\n");
-  } else if (stretch > 0.0) {
-    fmt::format_to(to, "                 critical stretch {:.6e}\n", stretch);
-  }
+}
+
+std::string stretch_text(double stretch) {
+  return std::isnan(stretch) ? "none (no positive energy)" : fmt::format("{:.6e}", stretch);
 }
 
 }  // namespace
@@ -163,10 +162,14 @@ std::string optimised_text(const Lattice<Dim>& lattice, const OptimisedReport<Di
     fmt::format_to(to, ", {} orbit{} at the bound", r.active.size(), r.active.size() > 1 ? "s" : "");
   fmt::format_to(to, "\n");
   errors(out, optimised.before, optimised.after, Dim);
-  if (optimised.critical_stretch > 0.0)
-    fmt::format_to(to, "critical stretch {:.6e} of the {} kernel\n", optimised.critical_stretch,
-                   word(lattice.medium.material.micromodulus.kernel));
-  if (optimised.fit) influence(out, *optimised.fit, optimised.fitted, optimised.fitted_critical_stretch);
+  if (optimised.fit) influence(out, *optimised.fit, optimised.fitted);
+  if (optimised.critical_stretch != 0.0) {
+    fmt::format_to(to, "critical stretch {} original, {} optimised", stretch_text(optimised.critical_stretch),
+                   stretch_text(optimised.optimised_critical_stretch));
+    if (optimised.fit)
+      fmt::format_to(to, ", {} influence function", stretch_text(optimised.fitted_critical_stretch));
+    fmt::format_to(to, "\n");
+  }
   fmt::format_to(to,
                  "next             use it in a case beside this one, with volume_correction: none and "
                  "calibration: continuum:\n"

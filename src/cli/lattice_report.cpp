@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "perimode/core/error.hpp"
@@ -42,11 +43,17 @@ auto at_place(const Where& where, const Compute& compute) {
   }
 }
 
-double critical_stretch_of(const Micromodulus& micromodulus, const Medium& medium) {
-  const auto& energy = medium.material.fracture_energy;
-  if (!energy || micromodulus.kernel == Kernel::shells) return 0.0;
-  return critical_stretch(micromodulus, medium.material.youngs_modulus, *energy, medium.horizon,
-                          medium.continuum);
+/// Critical stretch of a lattice's kernel: by its function of distance, or by the bonds of its table.
+template <int Dim>
+double critical_stretch_of(const Lattice<Dim>& lattice) {
+  const Medium& medium = lattice.medium;
+  const Material& m = medium.material;
+  if (!m.fracture_energy) return 0.0;
+  const double energy =
+      m.micromodulus.kernel == Kernel::shells
+          ? lattice_fracture_energy(m.micromodulus, m.youngs_modulus, 1.0, lattice.family, medium.continuum)
+          : fracture_energy(m.micromodulus, m.youngs_modulus, 1.0, medium.horizon, medium.continuum);
+  return energy > 0.0 ? stretch_of(*m.fracture_energy, energy) : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// The lattice with the fitted function's bonds.
@@ -99,18 +106,19 @@ OptimisedReport<Dim> report_optimised(const Lattice<Dim>& lattice, const ZonePat
   OptimisedReport<Dim> optimised;
   optimised.result = at_place(spec.optimise_where, [&] { return optimise_micromodulus(lattice, options); });
   optimised.before = contour_error(lattice, options.poissons_ratio, options.weights);
-  optimised.critical_stretch = critical_stretch_of(lattice.medium.material.micromodulus, lattice.medium);
+  optimised.critical_stretch = critical_stretch_of(lattice);
   if (optimised.result.status == OptimiseStatus::infeasible) return optimised;
   optimised.lattice = with_shells(lattice, optimised.result.alpha);
   optimised.report = report_lattice(*optimised.lattice, path, spec);
   optimised.after = contour_error(*optimised.lattice, options.poissons_ratio, options.weights);
+  optimised.optimised_critical_stretch = critical_stretch_of(*optimised.lattice);
   if (!spec.fit) return optimised;
   optimised.fit =
       at_place(spec.fit_where, [&] { return fit_influence(lattice, optimised.result.alpha, *spec.fit); });
   const Lattice<Dim> fitted = with_function(lattice, optimised.fit->micromodulus);
   optimised.fitted = contour_error(fitted, options.poissons_ratio, options.weights);
   optimised.fitted_survey = survey_zone(fitted, survey_points(spec, Dim));
-  optimised.fitted_critical_stretch = critical_stretch_of(optimised.fit->micromodulus, lattice.medium);
+  optimised.fitted_critical_stretch = critical_stretch_of(fitted);
   return optimised;
 }
 

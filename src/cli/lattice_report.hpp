@@ -38,8 +38,9 @@ struct OptimisedReport {
   std::optional<InfluenceFit> fit;
   ContourError fitted;            ///< of the lattice with the fitted function
   ZoneSurvey<Dim> fitted_survey;  ///< likewise
-  double critical_stretch = 0.0;  ///< of the case's kernel; 0: there is no fracture energy, or none can be
-  double fitted_critical_stretch = 0.0;  ///< of the fitted function, [alebrahim2021] eq. (52)
+  /// Of the case's kernel, of the table of coefficients, of the fitted function ([alebrahim2021] eq. (52)) at
+  /// the case's fracture energy; 0: there is none, NaN: bonds across a crack hold no positive energy.
+  double critical_stretch = 0.0, optimised_critical_stretch = 0.0, fitted_critical_stretch = 0.0;
 };
 
 /// Corners of the path that the case gives, or of the irreducible contour; pi/spacing.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cloud_dispersion.hpp"
 #include "commands.hpp"
 #include "dispersion_text.hpp"
 #include "machine.hpp"
@@ -101,7 +102,9 @@ Prediction check_quasistatic(const Body<Dim>& body, const Case& input) {
 }
 
 template <int Dim>
-Prediction check_dispersion(const Case& input) {
+Prediction check_dispersion(const Body<Dim>& body, const Case& input) {
+  if (!std::holds_alternative<GridSpec>(input.model.particles))
+    return {cloud_dispersion_plan_text(body, input), 0.0, ""};
   return {dispersion_plan_text(make_lattice<Dim>(input.model), *input.dispersion), 0.0, ""};
 }
 
@@ -117,7 +120,7 @@ int check(const Case& input, Console& console) {
   if (input.statics) predictions.push_back(check_static(body, input));
   if (input.transient) predictions.push_back(check_transient(body, input));
   if (input.quasistatic) predictions.push_back(check_quasistatic(body, input));
-  if (input.dispersion) predictions.push_back(check_dispersion<Dim>(input));
+  if (input.dispersion) predictions.push_back(check_dispersion(body, input));
   console.clear_progress();
   fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
   for (const Prediction& prediction : predictions) fmt::print("{}", prediction.text);

@@ -7,8 +7,10 @@
 #include <cstdio>
 #include <fstream>
 
+#include "cloud_dispersion.hpp"
 #include "commands.hpp"
 #include "dispersion_output.hpp"
+#include "dispersion_spectrum.hpp"
 #include "dispersion_text.hpp"
 #include "interrupt.hpp"
 #include "machine.hpp"
@@ -98,7 +100,7 @@ void warn(const OptimisedReport<Dim>& optimised, Console& console) {
     console.warning("the lattice with the fitted influence function is unstable; fit more cosines");
   const auto& alpha = optimised.result.alpha;
   const auto negative = std::count_if(alpha.begin(), alpha.end(), [](double a) { return a < 0.0; });
-  if (negative > 0 && optimised.critical_stretch > 0.0) {
+  if (negative > 0 && optimised.critical_stretch != 0.0) {
     console.warning(
         fmt::format("{} of {} coefficients are negative: such bonds release negative energy when they break, "
                     "so a case with a strength needs break_negative: true, or a lower_bound: 0 here",
@@ -130,6 +132,11 @@ int run_lattice(const Case& input, const Arguments& arguments, Console& console)
   const auto writing = Clock::now();
   write_tables(folder.temporary(), lattice, report, spec);
   if (optimised) write_optimised(folder.temporary(), *optimised, spec);
+  nlohmann::ordered_json spectrum;
+  if (spec.spectrum) {
+    console.stage("spectrum of the run", -1.0);
+    spectrum = write_spectrum(folder.temporary(), lattice, input);
+  }
   const bool done = !optimised || optimised->lattice;
   const std::string message = done ? std::string() : infeasible_message(optimised->result, *spec.optimise);
 
@@ -155,6 +162,7 @@ int run_lattice(const Case& input, const Arguments& arguments, Console& console)
     summary["certificate"] = certificate_json(*optimised);
     summary["optimised"] = optimised_json(*optimised, spec);
   }
+  if (spec.spectrum) summary["spectrum"] = std::move(spectrum);
   add_run(summary, {{"waves", seconds_waves},
                     {"optimise", seconds_optimise},
                     {"write", seconds_since(writing)},
@@ -187,6 +195,8 @@ int run_dispersion(const Arguments& arguments, Console& console) {
                    "add `analysis: { dispersion: {} }`",
                    {arguments.case_file.string(), 0, 0}});
   }
+  if (!std::holds_alternative<GridSpec>(input.model.particles))
+    return run_cloud_dispersion(input, arguments, console);
   return with_dimension(input.model.dimension, [&](auto dimension) {
     return run_lattice<dimension.value>(input, arguments, console);
   });

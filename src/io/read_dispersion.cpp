@@ -148,15 +148,10 @@ void read_optimise(const Cursor& cursor, const Model& model, DispersionSpec& spe
   spec.optimise = options;
 }
 
-SpectrumSpec read_spectrum(const Cursor& cursor, int dimension, const InputFiles& files) {
-  const Section section(cursor, {"run", "component", "along"});
-  SpectrumSpec spectrum;
-  spectrum.where = cursor.where();
-  spectrum.run = files.directory / section.need("run", "out/pulse").text("out/pulse");
-  if (const auto axis = section.find("along")) spectrum.along = read_axis(*axis, dimension);
-  spectrum.component = spectrum.along;
-  if (const auto axis = section.find("component")) spectrum.component = read_axis(*axis, dimension);
-  return spectrum;
+SpectrumSpec read_spectrum(const Cursor& cursor, const InputFiles& files) {
+  const Section section(cursor, {"run"});
+  const Cursor run = section.need("run", "out/pulse");
+  return {files.directory / run.text("out/pulse"), run.where()};
 }
 
 /// Keys that need the lattice of a grid, or the particles of a cloud.
@@ -215,7 +210,7 @@ void read_dispersion(const Cursor& cursor, InputFiles& files, Case& result) {
   }
   if (const auto optimise = section.find("optimise")) read_optimise(*optimise, model, spec);
   if (const auto spectrum = section.find("spectrum")) {
-    spec.spectrum = read_spectrum(*spectrum, model.dimension, files);
+    spec.spectrum = read_spectrum(*spectrum, files);
   }
   if (const auto waves = section.find("waves")) spec.waves = waves->integer(1, "10");
   result.dispersion = std::move(spec);

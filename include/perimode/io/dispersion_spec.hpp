@@ -23,8 +23,6 @@ struct PolarSpec {
 /// A transient run whose waves are drawn under the curves.
 struct SpectrumSpec {
   std::filesystem::path run;  ///< folder of its results, which holds fields.exo
-  int component = 0;          ///< of the displacement: 0 x, 1 y, 2 z
-  int along = 0;              ///< axis of the wave vector
   Where where = {};
 };
 
