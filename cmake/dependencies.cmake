@@ -10,6 +10,7 @@ find_package(OpenBLAS REQUIRED)
 find_package(LAPACKE REQUIRED)
 find_package(Exodus REQUIRED)
 find_package(HDF5Serial REQUIRED)
+find_package(FFTW3 3.3 REQUIRED)
 find_package(muparser REQUIRED CONFIG)
 find_package(yaml-cpp REQUIRED CONFIG)
 find_package(fmt REQUIRED CONFIG)
@@ -21,7 +22,7 @@ find_package(CLI11 REQUIRED CONFIG)
 # Linked into the library, so whoever links the static library needs them again (perimode-config.cmake.in).
 set(perimode_linked
   OpenMP::OpenMP_CXX CHOLMOD::CHOLMOD UMFPACK::UMFPACK ARPACK::ARPACK MUMPS::dmumps_seq Exodus::Exodus
-  LAPACKE::LAPACKE OpenBLAS::OpenBLAS HDF5Serial::HDF5 muparser::muparser yaml-cpp fmt::fmt spdlog::spdlog)
+  LAPACKE::LAPACKE OpenBLAS::OpenBLAS HDF5Serial::HDF5 FFTW3::FFTW3 muparser::muparser yaml-cpp fmt::fmt spdlog::spdlog)
 # Headers alone: nobody downstream meets them.
 set(perimode_header_only nlohmann_json::nlohmann_json nanoflann::nanoflann)
 
@@ -41,6 +42,7 @@ set_package_properties(OpenBLAS PROPERTIES DESCRIPTION "dense kernels")
 set_package_properties(LAPACKE PROPERTIES DESCRIPTION "dense eigenproblems")
 set_package_properties(Exodus PROPERTIES DESCRIPTION "result files")
 set_package_properties(HDF5Serial PROPERTIES DESCRIPTION "checkpoints")
+set_package_properties(FFTW3 PROPERTIES DESCRIPTION "Fourier transforms of runs")
 set_package_properties(muparser PROPERTIES DESCRIPTION "expressions in case files")
 set_package_properties(yaml-cpp PROPERTIES DESCRIPTION "case files")
 set_package_properties(fmt PROPERTIES DESCRIPTION "text")
