@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -253,6 +254,42 @@ TEST(CloudWaves, SpreadIsOfFirstOrderInTheDisorderAndTheMeanOfSecond) {
     const double second = more.waves.squared[b] - lattice.waves.squared[b];
     EXPECT_NEAR(second / first, 4.0, 0.2);
     EXPECT_LT(std::abs(second), 0.01 * lattice.waves.squared[b]);
+  }
+}
+
+/// The lowest squared frequencies of the modes exp(i k.x) times a function with the cloud's period.
+template <int Dim>
+Eigen::VectorXd bloch_levels(const Body<Dim>& body, const Point<Dim>& k) {
+  const Eigen::Index n = body.count();
+  Eigen::MatrixXcd h = Eigen::MatrixXcd::Zero(n * Dim, n * Dim);
+  const auto mass = [&](Index i) {
+    const auto p = static_cast<std::size_t>(i);
+    return body.density[static_cast<std::size_t>(body.particles.block[p])] * body.particles.volume[p];
+  };
+  for (Index i = 0; i < n; ++i) {
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Point<Dim> e = end.xi / end.length;
+      const Eigen::MatrixXcd block = (bond_stiffness(body, i, end) * e * e.transpose()).eval();
+      const Index j = end.neighbour;
+      h.block(i * Dim, i * Dim, Dim, Dim) += block / mass(i);
+      h.block(i * Dim, j * Dim, Dim, Dim) -=
+          std::polar(1.0, k.dot(end.xi)) / std::sqrt(mass(i) * mass(j)) * block;
+    });
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd>(h, Eigen::EigenvaluesOnly).eigenvalues().head(Dim);
+}
+
+TEST(CloudWaves, BoundTheAcousticModesOfLongWavesFromAbove) {
+  const test::TemporaryFolder folder;
+  const auto body = build_body<2>(uneven<2>(folder));
+  const Point<2> k(2.0, 1.0);  // period 1.1 and 0.9
+  const Eigen::VectorXd levels = bloch_levels<2>(body, k);
+  auto squared = one_wave<2>(body, k).waves.squared;
+  std::sort(squared.begin(), squared.end());
+  for (std::size_t b = 0; b < 2; ++b) {
+    const double level = levels[static_cast<Eigen::Index>(b)];
+    EXPECT_GT(squared[b], level);
+    EXPECT_LT(squared[b], 1.5 * level);  // blocks of stiffness 1 and 3 and a crack
   }
 }
 
