@@ -4,6 +4,7 @@
 #include <cholmod.h>
 #include <dmumps_c.h>
 #include <exodusII.h>
+#include <fftw3.h>
 #include <fmt/core.h>
 #include <openblas_config.h>
 #include <spdlog/version.h>
@@ -43,12 +44,18 @@ std::string openblas_text() {
   return number + " (" + kernels + ")";
 }
 
+// "fftw-3.3.10-sse2-avx": the version and the instructions it was built for.
+std::string fftw_text() {
+  const std::string name = static_cast<const char*>(fftw_version);
+  return name.starts_with("fftw-") ? name.substr(5) : name;
+}
+
 }  // namespace
 
 std::string version() { return build_info::version; }
 
 std::vector<Component> components() {
-  return {
+  std::vector<Component> all = {
       {"compiler", build_info::compiler},
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"CHOLMOD", cholmod_text()},
@@ -58,6 +65,7 @@ std::vector<Component> components() {
       {"LAPACKE", build_info::lapacke},
       {"OpenBLAS", openblas_text()},
       {"Exodus II", fmt::format("{:.2f}", EX_API_VERS)},
+      {"FFTW", fftw_text()},
       {"yaml-cpp", build_info::yaml_cpp},
       {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"spdlog", dotted(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
@@ -65,6 +73,8 @@ std::vector<Component> components() {
        dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"nanoflann", dotted(NANOFLANN_VERSION >> 8, NANOFLANN_VERSION >> 4 & 0xf, NANOFLANN_VERSION & 0xf)},
   };
+  if (*build_info::clp != '\0') all.push_back({"Clp", build_info::clp});
+  return all;
 }
 
 }  // namespace perimode

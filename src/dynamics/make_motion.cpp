@@ -108,12 +108,11 @@ void add_loads(const Body<Dim>& body, const std::vector<Load>& loads, Motion& mo
   }
 }
 
-/// Form of K. Softening bonds have no square root, which all forms but blocks keep. Stiffness damping of a
-/// body that breaks is that of the whole one, which the stencil, reading the alive bits, would forget.
+/// Form of K. Stiffness damping of a body that breaks is that of the whole one, which the stencil, reading
+/// the alive bits, would forget.
 template <int Dim>
 StiffnessForm stored_form(const Body<Dim>& body, const TransientOptions& options) {
   const bool automatic = options.form == StiffnessForm::automatic;
-  if (automatic && softening(body)) return StiffnessForm::blocks;
   const bool reads_bits = automatic || options.form == StiffnessForm::stencil;
   if (reads_bits && needs_bond_forces(options) && options.rayleigh_stiffness > 0.0)
     return StiffnessForm::bonds;
