@@ -85,9 +85,17 @@ void add_order(const EndlessBar& bar, Results& results) {
 }
 
 void add_differences(double spacing, double courant, Results& results) {
-  constexpr double k = 1000.0;
-  results[{"omega", fmt::format("differences C={:g}", courant), spacing, 1, k}] =
-      finite_difference_frequency(k, 1.0, spacing, courant);
+  const auto of = [&](double k) { return finite_difference_frequency(k, 1.0, spacing, courant); };
+  const auto add = [&](const char* quantity, double at, double value) {
+    results[{quantity, fmt::format("differences C={:g}", courant), spacing, 1, at}] = value;
+  };
+  for (const double k : probes) add("omega", k, of(k));
+  double inside = 0.0, outside = std::numbers::pi / spacing;  // omega/k falls all the way
+  for (int halving = 0; halving < 60; ++halving) {
+    const double k = 0.5 * (inside + outside);
+    (of(k) < (1.0 - band_error) * k ? outside : inside) = k;
+  }
+  add("band", 0.0, inside * spacing);
 }
 
 void add_shape(const Micromodulus& kernel, Results& results) {

@@ -41,7 +41,7 @@ void add_continuum(const Micromodulus& kernel, double horizon, Results& results)
 /// ratio is doubled.
 void add_order(const EndlessBar& bar, Results& results);
 
-/// Adds omega of finite differences, eq. (51), at k = 1000 rad/m; Key::horizon is the spacing.
+/// Adds omega and band (k spacing) of finite differences, eq. (51); Key::horizon is the spacing.
 void add_differences(double spacing, double courant, Results& results);
 
 /// Adds shape, g at r/delta = 1/2 and 1 (Key::at), and c0 over that of the constant kernel, eq. (33) over

@@ -39,7 +39,7 @@ void print_frequencies(const Results& results, const ExpectedResults& expected) 
              "1500");
   for (const auto& entry : results) {
     Key key = entry.first;
-    if (key.quantity != "omega" || (key.at != 500.0 && !key.body.starts_with("differences"))) continue;
+    if (key.quantity != "omega" || key.at != 500.0) continue;
     std::string found, wanted;
     for (const double k : {500.0, 1000.0, 1500.0}) {
       key.at = k;
@@ -55,13 +55,14 @@ void print_waves(const Results& results) {
   fmt::print("\n{:<24}{:>4}{:>12}{:>16}{:>12}{:>12}{:>10}{:>12}{:>10}{:>10}\n", "horizon 4 mm", "m",
              "long waves", "5 % to k delta", "cut-off dx", "at k dx/pi", "v dt/dx", "sufficient", "eq. (42)",
              "order");
-  for (const auto& [key, speed] : results) {
+  for (const auto& entry : results) {
+    const Key& key = entry.first;
     if (key.quantity != "long_wave" || key.horizon != fixed_horizon) continue;
     const auto cell = [&key, &results](const char* quantity, const char* format) {
       return text(results, {quantity, key.body, key.horizon, key.ratio, 0.0}, format);
     };
-    fmt::print("{:<24}{:>4}{:>12.6f}{:>16}{:>12}{:>12}{:>10}{:>12}{:>10}{:>10}\n", key.body, key.ratio, speed,
-               cell("band", "{:.4f}"), cell("cut_off", "{:.6f}"), cell("cut_off_k", "{:.4f}"),
+    fmt::print("{:<24}{:>4}{:>12.6f}{:>16}{:>12}{:>12}{:>10}{:>12}{:>10}{:>10}\n", key.body, key.ratio,
+               entry.second, cell("band", "{:.4f}"), cell("cut_off", "{:.6f}"), cell("cut_off_k", "{:.4f}"),
                cell("step", "{:.6f}"), cell("sufficient_step", "{:.4f}"), cell("printed_step", "{:.4f}"),
                key.ratio == 10 ? text(results, {"order", key.body, key.horizon, 20, 1000.0}, "{:.3f}") : "");
   }
