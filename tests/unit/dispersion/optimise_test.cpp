@@ -36,6 +36,7 @@ bool has_clp() {
   try {
     OptimiseOptions options;
     options.norm = ErrorNorm::l1;
+    options.points = 16;
     (void)optimise_micromodulus(constant_lattice<1>(2), options);
     return true;
   } catch (const Error& error) {
