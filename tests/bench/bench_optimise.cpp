@@ -57,7 +57,7 @@ BENCHMARK_CAPTURE(optimise<1>, square, square)->Arg(10)->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(optimise<1>, absolute, absolute)->Arg(10)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(optimise<2>, square, square)->Arg(2)->Arg(3)->Arg(5)->Arg(8)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(optimise<2>, bounded, bounded)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<2>, absolute, absolute)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(optimise<2>, absolute, absolute)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(optimise<2>, zone, zone)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(optimise<3>, square, square)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(optimise<3>, bounded, bounded)->Arg(3)->Unit(benchmark::kMillisecond);
