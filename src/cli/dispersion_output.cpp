@@ -327,7 +327,10 @@ template <int Dim>
 std::string point_text(const Point<Dim>& point, double unit) {
   const std::vector<double> numbers(point.data(), point.data() + Dim);
   std::vector<std::string> texts(numbers.size());
-  for (std::size_t a = 0; a < numbers.size(); ++a) texts[a] = fmt::format("{:.4g}", numbers[a] / unit);
+  for (std::size_t a = 0; a < numbers.size(); ++a) {
+    const double value = numbers[a] / unit;
+    texts[a] = fmt::format("{:.4g}", std::abs(value) < 1e-12 ? 0.0 : value);
+  }
   return fmt::format("({})", fmt::join(texts, ", "));
 }
 

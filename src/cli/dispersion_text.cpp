@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <vector>
@@ -34,7 +35,7 @@ void bands(fmt::memory_buffer& out, const Lattice<Dim>& lattice, const std::vect
                    band.cut_off, band.cut_off_k / unit,
                    band.band_k > 0.0 ? fmt::format("{:.4f} ({:.4e})", band.band_k / unit, band.band_frequency)
                                      : std::string("never"),
-                   fmt::format("{:.2f} %", 100.0 * band.worst_overshoot));
+                   fmt::format("{:.2f} %", 100.0 * std::max(0.0, band.worst_overshoot)));
   }
 }
 

@@ -98,6 +98,14 @@ void warn(const OptimisedReport<Dim>& optimised, Console& console) {
     console.warning("the optimised lattice is unstable: some of its waves grow; give a lower_bound");
   if (optimised.fit && optimised.fitted_survey.least_squared < 0.0)
     console.warning("the lattice with the fitted influence function is unstable; fit more cosines");
+  constexpr double much = 0.1;
+  if (optimised.fit && !(std::abs(optimised.fit->energy_ratio - 1.0) < much)) {
+    console.warning(
+        fmt::format("the influence function stores {:.4g} times the energy of the material as a continuum: "
+                    "it fits the lattice's "
+                    "distances alone; a lower_bound or fewer cosines make it smoother",
+                    optimised.fit->energy_ratio));
+  }
   const auto& alpha = optimised.result.alpha;
   const auto negative = std::count_if(alpha.begin(), alpha.end(), [](double a) { return a < 0.0; });
   if (negative > 0 && optimised.critical_stretch != 0.0) {

@@ -268,7 +268,7 @@ analysis:
       lower_bound: none         # of every coefficient; 0: no negative ones
       # poissons_ratio: theory  # another: long-wave speeds right along the axes alone
       # weights: [1, 1]         # of the errors of P and S
-      fit: 4                    # cosines of an influence function: influence.yaml
+      # fit: 4                  # cosines of an influence function, best with a lower_bound: influence.yaml
 
 output:
   directory: out/waves          # dispersion.csv, bands.csv and summary.json

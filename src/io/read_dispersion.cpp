@@ -71,6 +71,10 @@ std::array<double, 2> read_weights(const Cursor& cursor) {
   return weights;
 }
 
+constexpr const char* no_error_is_made_least =
+    "it solves as many equations as there are numbers, and no error is made least: leave the key out, or "
+    "write method: least_squares";
+
 void read_method(const Section& section, int dimension, OptimiseOptions& options) {
   if (const auto method = section.find("method")) {
     options.method =
@@ -94,10 +98,8 @@ void read_method(const Section& section, int dimension, OptimiseOptions& options
                        "off the contour waves are not linear in what is sought: give norm: l2");
     }
   }
-  if (options.method == OptimiseMethod::least_squares) return;
-  for (const char* key : {"norm", "domain", "lower_bound", "weights"}) {
-    section.refuse(key, fmt::format("`{}` with the method least_squares only", key),
-                   "the other methods solve as many equations as there are numbers: remove it");
+  if (options.method != OptimiseMethod::least_squares && options.norm == ErrorNorm::l1) {
+    section.find("norm")->complain("l2 with a method of equations", no_error_is_made_least);
   }
 }
 
@@ -106,6 +108,8 @@ void read_targets(const Section& section, int dimension, OptimiseOptions& option
     const bool none = bound->node().kind == CaseNode::Kind::scalar && bound->node().text == "none";
     if (!none && !bound->is_number()) bound->complain("a number, or none", "for example 0.5");
     if (!none) options.lower_bound = bound->number({"", "0.5", Sign::any});
+    if (!none && options.method != OptimiseMethod::least_squares)
+      bound->complain("none with a method of equations", no_error_is_made_least);
   }
   if (const auto ratio = section.find("poissons_ratio")) {
     const bool theory = ratio->node().kind == CaseNode::Kind::scalar && ratio->node().text == "theory";
