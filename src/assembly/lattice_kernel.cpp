@@ -1,28 +1,34 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
+#include <fmt/format.h>
+
+#include <variant>
 
 #include "perimode/assembly/body.hpp"
 
 namespace perimode {
-
 namespace {
 
 void require_fits(const Model& model, const Material& material) {
   const Kernel kernel = material.micromodulus.kernel;
   if (!is_lattice_kernel(kernel)) return;
-  const std::string name = kernel == Kernel::shells ? "shells" : "fourier";
-  const auto refuse = [&](const std::string& expected, const std::string& got, const std::string& remedy) {
-    invalid_input({expected + " for the kernel " + name, got, remedy, material.where});
-  };
-  if (!std::holds_alternative<GridSpec>(model.particles))
-    refuse("a grid", "a cloud", "its numbers belong to a lattice; take another kernel for a cloud");
-  if (model.volume_correction != VolumeCorrection::none || model.self_cell) {
-    refuse("volume_correction: none", model.self_cell ? "a self cell" : "a volume correction",
-           "its numbers are those of whole cells; leave the correction out");
+  const char* name = kernel == Kernel::shells ? "shells" : "fourier";
+  if (!std::holds_alternative<GridSpec>(model.particles)) {
+    invalid_input({fmt::format("a grid for the kernel {}, which multiplies the bonds of a lattice", name),
+                   "a cloud", "use a grid, or a kernel that is a function of distance", material.where});
+  }
+  if (model.volume_correction != VolumeCorrection::none) {
+    invalid_input({fmt::format("volume_correction none with the kernel {}", name),
+                   model.volume_correction == VolumeCorrection::linear ? "linear" : "exact",
+                   "its multipliers hold for whole cells", material.where});
+  }
+  if (model.self_cell) {
+    invalid_input({fmt::format("no self cell with the kernel {}", name), "self_cell: true",
+                   "it belongs to the kernel inverse_distance", material.where});
   }
   if (model.calibration != Calibration::continuum) {
-    refuse("calibration: continuum", "a discrete one",
-           "its numbers multiply the constant kernel's as they are; leave the calibration out");
+    invalid_input({fmt::format("calibration continuum with the kernel {}", name),
+                   model.calibration == Calibration::discrete ? "discrete" : "discrete_cut",
+                   "its multipliers are used as they are", material.where});
   }
 }
 
@@ -32,17 +38,5 @@ void require_lattice_kernel_fits(const Model& model) {
   require_fits(model, model.material);
   for (const auto& [name, material] : model.block_materials) require_fits(model, material);
 }
-
-template <int Dim>
-bool softening(const Body<Dim>& body) {
-  const auto below_zero = [](double c) { return c < 0.0; };
-  const BondConstants& constants = body.constants;
-  return std::any_of(constants.kernel.begin(), constants.kernel.end(), below_zero) ||
-         std::any_of(constants.kernel_of_end.begin(), constants.kernel_of_end.end(), below_zero);
-}
-
-template bool softening<1>(const Body<1>&);
-template bool softening<2>(const Body<2>&);
-template bool softening<3>(const Body<3>&);
 
 }  // namespace perimode

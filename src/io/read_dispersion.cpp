@@ -89,6 +89,10 @@ void read_method(const Section& section, int dimension, OptimiseOptions& options
   if (const auto domain = section.find("domain")) {
     options.domain =
         domain->choice<ErrorDomain>({{"contour", ErrorDomain::contour}, {"zone", ErrorDomain::zone}});
+    if (options.norm == ErrorNorm::l1 && options.domain == ErrorDomain::zone) {
+      domain->complain("contour with the norm l1",
+                       "off the contour waves are not linear in what is sought: give norm: l2");
+    }
   }
   if (options.method == OptimiseMethod::least_squares) return;
   for (const char* key : {"norm", "domain", "lower_bound", "weights"}) {

@@ -117,7 +117,7 @@ material: { youngs_modulus: 68.0e+9, density: 2700, micromodulus: { kernel: shel
             break_negative: true, calibration: continuum, volume_correction: none }
 materials: { a: { micromodulus: { kernel: fourier, a0: 1, a: [0.5, -0.25], w: 0.7 }, break_negative: false },
              b: { micromodulus: { alpha: [1, 1, 1] } } }
-analysis: { dispersion: { optimise: { norm: l1, domain: zone, lower_bound: -5, poissons_ratio: 0.3, weights: [1, 2], fit: 3 } } }
+analysis: { dispersion: { optimise: { norm: l2, domain: zone, lower_bound: -5, poissons_ratio: 0.3, weights: [1, 2], fit: 3 } } }
 """,
     "table": """
 body: { dimension: 3, particles: { grid: { lower: [0, 0, 0], upper: [1, 1, 1], spacing: 0.1 } }, horizon: { ratio: 1.5 } }

@@ -59,11 +59,12 @@ TEST(ReadDispersion, EveryKeyOfAnAnalysis) {
 TEST(ReadDispersion, EveryKeyOfAnOptimisation) {
   const DispersionSpec spec = read(
       "solid",
-      "{ optimise: { method: least_squares, norm: l1, domain: zone, lower_bound: -0.5, poissons_ratio: 0.3, "
+      "{ optimise: { method: least_squares, norm: l2, domain: zone, lower_bound: -0.5, poissons_ratio: 0.3, "
       "weights: [2, 0], fit: 0 } }");
   ASSERT_TRUE(spec.optimise.has_value());
   EXPECT_EQ(spec.optimise->method, OptimiseMethod::least_squares);
-  EXPECT_EQ(spec.optimise->norm, ErrorNorm::l1);
+  EXPECT_EQ(spec.optimise->norm, ErrorNorm::l2);
+  EXPECT_EQ(read("solid", "{ optimise: { norm: l1 } }").optimise->norm, ErrorNorm::l1);
   EXPECT_EQ(spec.optimise->domain, ErrorDomain::zone);
   EXPECT_EQ(spec.optimise->lower_bound, -0.5);
   EXPECT_EQ(spec.optimise->poissons_ratio, 0.3);
@@ -225,6 +226,11 @@ const BadCase optimise[] = {
      {"least_squares in 3D", "1D only"}},
     {"norm_word", "solid", "analysis", PERIMODE_OPTIMISE("norm: ^l3"), {"one of l2, l1"}},
     {"domain_word", "solid", "analysis", PERIMODE_OPTIMISE("domain: ^path"), {"one of contour, zone"}},
+    {"l1_over_the_zone",
+     "solid",
+     "analysis",
+     PERIMODE_OPTIMISE("norm: l1, domain: ^zone"),
+     {"contour with the norm l1", "l2"}},
     {"bound_word", "solid", "analysis", PERIMODE_OPTIMISE("lower_bound: ^no"), {"a number, or none"}},
     {"ratio_word", "solid", "analysis", PERIMODE_OPTIMISE("poissons_ratio: ^steel"), {"a number, or theory"}},
     {"ratio_half", "solid", "analysis", PERIMODE_OPTIMISE("poissons_ratio: ^0.5"), {"> -1 and < 0.5"}},
