@@ -125,10 +125,25 @@ TEST(SurveyZone, TellsAnUnstableLattice) {
   expect_relative(survey.omega_max, std::sqrt(2.0), 1e-13);
 }
 
-// [alebrahim2021]: largest omega spacing/sqrt(E/rho) of the plane, m = 3, original and optimised multipliers.
-TEST(SurveyZone, StabilityLinesOfOriginalPlanes) {
-  const auto survey = survey_zone<2>(lattice_of<2>({Kernel::constant}, 1.0, 3.0), 65);
-  EXPECT_NEAR(survey.omega_max, 1.107, 5e-4);  // digits given
+// Plane strain, nu = 1/4, m = 3, in sqrt(E/rho)/spacing: the constant kernel and the least-squares optimum of
+// [alebrahim2021] eq. (45) with the long-wave speeds exact.
+TEST(SurveyZone, StabilityLimitsOfPlanes) {
+  const auto original = lattice_of<2>({Kernel::constant}, 1.0, 3.0);
+  const auto survey = survey_zone<2>(original, 65);
+  EXPECT_NEAR(survey.omega_max, 1.10808, 5e-6);  // digits given
+  // Its top is a P wave along the axis, where a search along the line finds it too.
+  EXPECT_LT(survey.omega_max_at.minCoeff(), 1e-7);
+  const auto axis = branch_band<2>(original, Branch::pressure, Point<2>(1.0, 0.0), pi, 0.05);
+  expect_relative(survey.omega_max, axis.cut_off, 1e-13);
+
+  const auto optimal =
+      survey_zone<2>(lattice_of<2>(shells_of<2>(3.0, {27.1405315903, 6.5826657897, -19.7723191273,
+                                                      -0.4557006259, -0.3310746313, 6.7354513300}),
+                                   1.0, 3.0),
+                     65);
+  EXPECT_NEAR(optimal.omega_max, 3.92, 5e-3);
+  EXPECT_NEAR(optimal.least_speed_squared, 0.20, 5e-3);
+  EXPECT_GT(optimal.least_squared, 0.0);
 }
 
 TEST(SurveyZone, RefusesASinglePoint) {
