@@ -46,6 +46,10 @@ struct Body {
 template <int Dim>
 [[nodiscard]] Body<Dim> build_body(const Model& model, const Sink& sink = {});
 
+/// Kernels that multiply the bonds of a lattice (fourier, shells) need a grid, volume_correction none and
+/// calibration continuum: throws invalid_input at the material that has one without.
+void require_lattice_kernel_fits(const Model& model);
+
 /// What a body would hold, from the model alone.
 struct BodySize {
   double particles = 0.0;
