@@ -8,7 +8,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build
   libeigen3-dev libsuitesparse-dev libarpack2-dev libmumps-seq-dev
-  libopenblas-pthread-dev liblapacke-dev
+  libopenblas-pthread-dev liblapacke-dev coinor-libclp-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
   libnanoflann-dev libexodusii-dev libhdf5-dev libmuparser-dev libxxhash-dev
   libgtest-dev libgmock-dev libbenchmark-dev

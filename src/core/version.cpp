@@ -48,7 +48,7 @@ std::string openblas_text() {
 std::string version() { return build_info::version; }
 
 std::vector<Component> components() {
-  return {
+  std::vector<Component> all = {
       {"compiler", build_info::compiler},
       {"Eigen", dotted(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"CHOLMOD", cholmod_text()},
@@ -65,6 +65,8 @@ std::vector<Component> components() {
        dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
       {"nanoflann", dotted(NANOFLANN_VERSION >> 8, NANOFLANN_VERSION >> 4 & 0xf, NANOFLANN_VERSION & 0xf)},
   };
+  if (*build_info::clp != '\0') all.push_back({"Clp", build_info::clp});
+  return all;
 }
 
 }  // namespace perimode

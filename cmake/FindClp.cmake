@@ -1,0 +1,15 @@
+# Clp of COIN-OR (its C interface alone). Target: Clp::Clp. The version stands in ClpConfig.h.
+find_path(Clp_INCLUDE_DIR Clp_C_Interface.h PATH_SUFFIXES coin coin-or)
+find_library(Clp_LIBRARY Clp)
+mark_as_advanced(Clp_INCLUDE_DIR Clp_LIBRARY)
+if(Clp_INCLUDE_DIR AND EXISTS "${Clp_INCLUDE_DIR}/ClpConfig.h")
+  file(STRINGS "${Clp_INCLUDE_DIR}/ClpConfig.h" line REGEX "#define CLP_VERSION +\"")
+  string(REGEX REPLACE ".*\"([0-9.]+).*\".*" "\\1" Clp_VERSION "${line}")
+endif()
+include(FindPackageHandleStandardArgs)
+find_package_handle_standard_args(Clp REQUIRED_VARS Clp_LIBRARY Clp_INCLUDE_DIR VERSION_VAR Clp_VERSION)
+if(Clp_FOUND AND NOT TARGET Clp::Clp)
+  add_library(Clp::Clp UNKNOWN IMPORTED)
+  set_target_properties(Clp::Clp PROPERTIES
+    IMPORTED_LOCATION "${Clp_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${Clp_INCLUDE_DIR}")
+endif()
