@@ -10,7 +10,7 @@ packages=(
   libeigen3-dev libsuitesparse-dev libarpack2-dev libmumps-seq-dev
   libopenblas-pthread-dev liblapacke-dev coinor-libclp-dev
   libyaml-cpp-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev
-  libnanoflann-dev libexodusii-dev libhdf5-dev libmuparser-dev libxxhash-dev
+  libnanoflann-dev libexodusii-dev libhdf5-dev libfftw3-dev libmuparser-dev libxxhash-dev
   libgtest-dev libgmock-dev libbenchmark-dev
   python3 python3-numpy python3-scipy python3-matplotlib python3-jsonschema python3-yaml
 )

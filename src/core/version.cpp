@@ -4,6 +4,7 @@
 #include <cholmod.h>
 #include <dmumps_c.h>
 #include <exodusII.h>
+#include <fftw3.h>
 #include <fmt/core.h>
 #include <openblas_config.h>
 #include <spdlog/version.h>
@@ -43,6 +44,12 @@ std::string openblas_text() {
   return number + " (" + kernels + ")";
 }
 
+// "fftw-3.3.10-sse2-avx": the version and the instructions it was built for.
+std::string fftw_text() {
+  const std::string name = static_cast<const char*>(fftw_version);
+  return name.starts_with("fftw-") ? name.substr(5) : name;
+}
+
 }  // namespace
 
 std::string version() { return build_info::version; }
@@ -58,6 +65,7 @@ std::vector<Component> components() {
       {"LAPACKE", build_info::lapacke},
       {"OpenBLAS", openblas_text()},
       {"Exodus II", fmt::format("{:.2f}", EX_API_VERS)},
+      {"FFTW", fftw_text()},
       {"yaml-cpp", build_info::yaml_cpp},
       {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
       {"spdlog", dotted(SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH)},
