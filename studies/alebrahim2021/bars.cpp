@@ -80,7 +80,7 @@ void add_printed_bars(const ExpectedResults& paper, Results& results, Kernels& b
 
 void add_bands(const ExpectedResults& paper, Results& results, Kernels& bars) {
   bars[{"modified", 2}] = printed_column(paper, "alpha", "G", 2);
-  for (const std::string name : {"original", "modified"}) {
+  for (const std::string name : {"original", "modified", "S.C"}) {
     const Lattice<1> bar = modified_lattice<1>(2, bars.at({name, 2}));
     const BranchBand band = branch_band<1>(bar, Branch::pressure, Point<1>(1.0), pi, 0.05);
     results[key("long_wave_excess", name, 2)] = band.long_wave_ratio - 1.0;

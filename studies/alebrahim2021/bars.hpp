@@ -13,8 +13,8 @@ namespace perimode::studies {
 /// The columns of table 1 as printed, "P.C printed", ...: error49 and squared_residual.
 void add_printed_bars(const ExpectedResults& paper, Results& results, Kernels& bars);
 
-/// Sect. 7.1.2: N = 2 with alpha = 1 ("original") and 3.72, -0.86 ("modified", kept in `bars`): where they
-/// cross omega = k, cut-offs, what lies at 2.25 rad/s.
+/// Sect. 7.1.2: N = 2 with alpha = 1 ("original"), 3.72, -0.86 ("modified", kept in `bars`) and the numbers
+/// these are rounded from ("S.C"): where they cross omega = k, cut-offs, what lies at 2.25 rad/s.
 void add_bands(const ExpectedResults& paper, Results& results, Kernels& bars);
 
 /// Sect. 3.4.1: N = 1. Speed of long waves without and largest difference with alpha = 1/2 from finite

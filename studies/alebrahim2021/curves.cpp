@@ -105,7 +105,7 @@ Figure bar_figure(const Kernels& bars, const Results& results) {
   }
   for (const std::string& method : method_names)
     for (const int n : {3, 5, 10})
-      for (const std::string name : {method, method + " printed"})
+      for (const std::string& name : {method, method + " printed"})
         add_number(figure, "c", name, n, results, key("error49", name, n));
   for (const int n : {3, 5, 10})
     for (const std::string name : {"original", "L1"})

@@ -56,11 +56,10 @@ Micromodulus on_spacing(Micromodulus function, double spacing) {
 }  // namespace
 
 Micromodulus printed_influence(const ExpectedResults& paper) {
-  std::vector<double> numbers = printed_column(paper, "eq50", "a", n);
   Micromodulus function;
   function.kernel = Kernel::fourier;
-  function.a0 = numbers.front();
-  function.a.assign(numbers.begin() + 1, numbers.end());
+  function.a0 = paper.at(key("eq50", "a", n, 0)).value;
+  function.a = printed_column(paper, "eq50", "a", n);
   function.w = paper.at(key("eq50", "w", n)).value;
   function.spacing = 1.0;
   return function;

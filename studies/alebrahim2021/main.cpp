@@ -54,6 +54,10 @@ std::vector<std::string> broken_rules(const Results& results) {
         (which.quantity == "constraint" && !printed && std::abs(value) > 1e-10 * which.ratio * which.ratio))
       broken.push_back(
           fmt::format("{} of {}, N = {}: {:.1e}", which.quantity, which.body, which.ratio, value));
+    if (which.quantity == "ridge_error" &&
+        value > results.at({"time_step_shift", which.body, which.horizon, which.ratio, 0.0}) + 1e-3)
+      broken.push_back(
+          fmt::format("ridge of {}, N = {}: {:.1e} from omega(k)", which.body, which.ratio, value));
     if (which.quantity == "least_squared" && value < 0.0)
       broken.push_back(fmt::format("{}, N = {}: omega^2 = {:.1e}", which.body, which.ratio, value));
   }

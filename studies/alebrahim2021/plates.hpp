@@ -10,8 +10,10 @@ namespace perimode::studies {
 void add_long_waves(const std::vector<int>& horizons, Results& results);
 
 /// Original and optimised plates: "QP" (least squares, eq. (45)), "QP 0" and "QP 0.5" (with that lower
-/// bound) and "L1" (eq. (43)) for N = 2, 3; "QP" alone for more. Their alpha, error51 and error45 over those
-/// of the original of the same N, residual of eq. (39), optimality.
+/// bound) and "L1" (eq. (43)) for N = 2, 3; "QP" alone for more. Their alpha, residual of eq. (39),
+/// optimality, and errors over those of the original of the same N: error51 and error45 with P and S told
+/// apart by size as in eq. (15), error51_named and error45_named by polarisation. They differ where branches
+/// cross.
 [[nodiscard]] Kernels optimised_plates(const std::vector<int>& horizons, Results& results);
 
 /// The twelve columns of table 2: A, B (omega^2/k^2 of long waves along x; nu = 1/4 wants 1.2 and 0.4), what

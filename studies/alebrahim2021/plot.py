@@ -86,15 +86,15 @@ def fig04(out):
     save(figure, out, "fig04", "Speed of long waves over the classical one in the original plates")
 
 
-def spectrum(axes, map_, floor=-70):
+def spectrum(axes, map_, floor=-70, shading="nearest"):
     x, y, level = map_
-    axes.pcolormesh(x, y, np.clip(level, floor, 0), cmap="Greys", vmin=floor, vmax=0, shading="nearest", rasterized=True)
+    axes.pcolormesh(x, y, np.clip(level, floor, 0), cmap="Greys", vmin=floor, vmax=0, shading=shading, rasterized=True)
 
 
 def under_curve(axes, curves, every):
     axes.plot(*curves["local"], color=BLUE, lw=1.1, ls="--", label="classical")
     x, y = curves["lattice"]
-    axes.plot(x[::every], y[::every], ls="", marker="o", ms=4, mfc="none", mec=RED, mew=1.0, label="lattice, eq. (10)/(15)")
+    axes.plot(x[::every], y[::every], ls="", marker="o", ms=4.5, mfc="none", mec=RED, mew=1.1, label="lattice, eq. (10)/(15)")
 
 
 def fig05(out):
@@ -129,7 +129,7 @@ def fig06(out):
     a.legend(frameon=False, fontsize=9)
     for name, (colour, label) in METHOD.items():
         if name in panels["b"]:
-            b.semilogy(*panels["b"][name], "-o", color=colour, ms=4, lw=1.5, label=label,
+            b.semilogy(*panels["b"][name], marker="o", color=colour, ms=4, lw=1.5, label=label,
                        ls="--" if name == "L1" else "-")
     tidy(b, title="b  eq. (49) over that of the original N = 3", xlabel="N", ylabel="error")
     b.set_xticks(range(1, 11))
@@ -193,12 +193,15 @@ def fig08(out):
     grid[0, 0].legend(frameon=False, fontsize=9, loc="upper left")
     for n, (bare, named) in zip((2, 3), (grid[2, :2], grid[2, 2:])):
         name = f"row N={n}"
-        for axes, title in ((bare, f"one row of nodes, original, N = {n}"), (named, "the same: d omega/d k_y = 0 (dots)")):
-            spectrum(axes, maps[name], -45)
-            tidy(axes, title=title, xlabel="k_x, rad/m", xlim=(0, np.pi), ylim=(0, 3.2))
+        for axes, title in ((bare, f"one row of nodes, original, N = {n}"), (named, "the same: where d omega/d k_y = 0")):
+            spectrum(axes, maps[name], -45, "gouraud")
+            tidy(axes, title=title, xlabel="k_x, rad/m", xlim=(0, np.pi), ylim=(0, 2.4))
             axes.grid(visible=False)
             axes.set_xticks([0, np.pi / 2, np.pi], ["0", "π/2", "π"])
-        named.plot(*panels[name]["gathering"], ls="", marker=".", ms=4, color=RED)
+        for place, colour, label in (("k_y=0", RED, "k_y = 0: the branch"), ("k_y=pi", BLUE, "k_y = π: ghost"),
+                                     ("between", GOLD, "k_y between: ghosts")):
+            named.plot(*panels[name][place], ls="", marker="o", ms=3.2, color=colour, mec="w", mew=0.3, label=label)
+        named.legend(frameon=False, fontsize=9, loc="upper left")
     save(figure, out, "fig08", "Plates: the curves of the lattice on the spectrum of a simulation; below: where ghosts come from")
 
 
@@ -217,7 +220,7 @@ def fig09(out):
                 colour, width, line = (RED, 1.9, "-") if name in ("QP", "QP 0.5") else ("#7a2d1d", 1.4, "-.")
                 label = f"ours: {name}" if " " not in name else f"ours: {name.split()[0]}, alpha >= {name.split()[1]}"
             axes.plot(x, y, color=colour, lw=width, ls=line, label=label)
-        tidy(axes, title=f"{panel}  {title}", ylabel="omega, rad/s", ylim=(0, 4.9 if panel in "ac" else 3.0))
+        tidy(axes, title=f"{panel}  {title}", ylabel="omega, rad/s", ylim=(0, {"b": 4.3, "d": 3.0}.get(panel, 4.9)))
         contour_ticks(axes)
         axes.legend(frameon=False, fontsize=8)
     save(figure, out, "fig09", "Plates of N = 3 over the contour O-M-Y-O: the columns of table 2 and ours")
@@ -267,6 +270,7 @@ def fig11(out):
     order += [f"3 {name}" for name in ("P.C positive", "S.C positive", "L.S positive", "G positive", "QP 0.5", "QP 0")]
     axes = grid[2]
     grouped(axes, {s: {g: v[g] for g in order if g in v} for s, v in series.items()}, order, colours)
+    axes.set_xlim(-0.7, len(order) - 0.3)
     axes.set_xticks(range(len(order)), [o.replace(" optimal", "").replace(" positive", "+") for o in order], rotation=60, fontsize=8)
     for tick, name in zip(axes.get_xticklabels(), order):
         tick.set_color(RED if name.split()[1] in ("QP", "L1") else INK)

@@ -49,33 +49,45 @@ void let_go(const RidgeRun& run, const Point<Dim>& direction,
 struct Misses {
   double lattice = 0.0;
   double stepped = 0.0;
+  double shift = 0.0;  // what the time step alone makes of omega
   void add(double found, double omega) {
     lattice = std::max(lattice, std::abs(found - omega));
     stepped = std::max(stepped, std::abs(found - central_difference_frequency(omega, dt)));
+    shift = std::max(shift, central_difference_frequency(omega, dt) - omega);
   }
 };
 
 void add_misses(const std::string& body, int n, const Misses& misses, double bin, Results& results) {
   results[key("ridge_error", body, n)] = misses.lattice;
   results[key("ridge_bins", body, n)] = misses.stepped / bin;
+  results[key("time_step_shift", body, n)] = misses.shift;
 }
 
-/// Frequencies at which waves of one kx and all k_y gather: local extrema over k_y of both branches.
-std::vector<double> gathering_frequencies(const Lattice<2>& plate, double kx) {
+/// A frequency at which waves of one kx and all k_y gather, and where it lies.
+struct Gathering {
+  double omega = 0.0;
+  const char* place = "";
+};
+
+/// Local extrema over k_y of both branches, without waves whose u_x is nothing there.
+std::vector<Gathering> gathering_frequencies(const Lattice<2>& plate, double kx) {
   constexpr int steps = 200;
-  std::vector<double> found;
-  std::array<std::vector<double>, 2> omega;
+  std::array<std::vector<double>, 2> omega, along_x;
   for (int i = -1; i <= steps + 1; ++i) {  // one beyond either end: both ends are extrema by symmetry
-    Point<2> k(kx, pi * i / steps);
-    const PlaneWaves<2> waves = plane_waves<2>(plate, k, Point<2>::UnitX());
-    std::array<double, 2> sorted = {waves.angular_frequency[0], waves.angular_frequency[1]};
-    std::sort(sorted.begin(), sorted.end());  // smooth in k_y where P and S change their names
-    for (std::size_t b = 0; b < 2; ++b) omega[b].push_back(sorted[b]);
+    const PlaneWaves<2> waves = plane_waves<2>(plate, {kx, pi * i / steps}, Point<2>::UnitX());
+    // By size: smooth in k_y where P and S change their names.
+    const int lower = waves.angular_frequency[0] < waves.angular_frequency[1] ? 0 : 1;
+    for (const int b : {0, 1}) {
+      const int branch = b == 0 ? lower : 1 - lower;
+      omega[static_cast<std::size_t>(b)].push_back(waves.angular_frequency[static_cast<std::size_t>(branch)]);
+      along_x[static_cast<std::size_t>(b)].push_back(std::abs(waves.polarisation(0, branch)));
+    }
   }
-  for (const std::vector<double>& w : omega)
-    for (std::size_t i = 1; i + 1 < w.size(); ++i)
-      if ((w[i] - w[i - 1]) * (w[i + 1] - w[i]) <= 0.0) found.push_back(w[i]);
-  std::sort(found.begin(), found.end());
+  std::vector<Gathering> found;
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t i = 1; i + 1 < omega[b].size(); ++i)
+      if ((omega[b][i] - omega[b][i - 1]) * (omega[b][i + 1] - omega[b][i]) <= 0.0 && along_x[b][i] > 1e-6)
+        found.push_back({omega[b][i], i == 1 ? "k_y=0" : (i == steps + 1 ? "k_y=pi" : "between")});
   return found;
 }
 
@@ -86,14 +98,14 @@ void add_row(const RidgeRun& run, const Lattice<2>& plate, const SpaceTime& row,
   const std::vector<RidgePoint> peaks = spectrum_peaks(spectrum, 0.1);
   int near = 0, count = 0;
   double at = -1.0;
-  std::vector<double> gathering;
+  std::vector<Gathering> gathering;
   for (const RidgePoint& peak : peaks) {
     if (peak.k < spectrum.k[first_k]) continue;
     if (peak.k != at) gathering = gathering_frequencies(plate, peak.k);
     at = peak.k;
     ++count;
-    near += std::any_of(gathering.begin(), gathering.end(), [&](double omega) {
-      return std::abs(central_difference_frequency(omega, dt) - peak.omega) <= 2.0 * spectrum.resolution;
+    near += std::any_of(gathering.begin(), gathering.end(), [&](const Gathering& wave) {
+      return std::abs(central_difference_frequency(wave.omega, dt) - peak.omega) <= spectrum.resolution;
     });
   }
   results[key("row_peaks", "plate " + run.body, run.n)] = count;
@@ -101,8 +113,8 @@ void add_row(const RidgeRun& run, const Lattice<2>& plate, const SpaceTime& row,
   if (figure == nullptr) return;
   add_map(*figure, run.row_panel, spectrum, Reference::whole, highest, 1, 1);
   for (const double k : spectrum.k)
-    for (const double omega : gathering_frequencies(plate, k))
-      add_point(*figure, run.row_panel, "gathering", k, omega);
+    for (const Gathering& wave : gathering_frequencies(plate, k))
+      add_point(*figure, run.row_panel, wave.place, k, wave.omega);
 }
 
 }  // namespace

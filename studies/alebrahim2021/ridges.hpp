@@ -20,14 +20,15 @@ struct RidgeRun {
 };
 
 /// ridge_error: largest |omega - eq. (10)| from the seventh k on; ridge_bins: the largest difference from
-/// what the integrator makes of it, (2/dt) asin(omega dt/2), in bins 2 pi/(instants dt). With a figure, the
-/// map, the ridge and the curves.
+/// what the integrator makes of it, (2/dt) asin(omega dt/2), in bins 2 pi/(instants dt). time_step_shift: the
+/// largest difference of that from omega. With a figure, the map, the ridge and the curves.
 void run_bar_ridge(const RidgeRun& run, Results& results, Figure* figure);
 
 /// The same along O-M-Y-O for both branches against eq. (15), from waves sorted out over the whole grid.
 /// row_panel: the spectrum of u_x along one row of nodes, in which waves of all k_y lie on top of each
 /// other, with the frequencies at which they gather, d omega/d k_y = 0: the paper's higher-order ghosts.
-/// row_ghost, row_peaks: share of the row's peaks within two bins of such a frequency, and their number.
+/// row_ghost, row_peaks: share of the row's peaks (a tenth of the largest at their k, or more) within a bin
+/// of such a frequency, and their number.
 void run_plate_ridge(const RidgeRun& run, Results& results, Figure* figure);
 
 }  // namespace perimode::studies

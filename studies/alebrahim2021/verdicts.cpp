@@ -133,14 +133,20 @@ void judge_plates(Judge& judge) {
   for (const int n : {2, 3})
     for (const auto& [error, kernel] : {std::pair{"error45", "QP"}, {"error51", "L1"}}) {
       if (!judge.has(key(error, kernel, n))) continue;
-      std::string best;
-      for (const std::string& method : method_names)
-        if (best.empty() || judge.at(error, method + " optimal", n) < judge.at(error, best, n))
-          best = method + " optimal";
+      std::string best;  // of the columns that satisfy eq. (39) to the last digit
+      double lower = 1.0;
+      for (const std::string& method : method_names) {
+        const std::string name = method + " optimal";
+        lower = std::min(lower, judge.at(error, name, n));
+        if (judge.at("eq39", name, n) > 0.5 &&
+            (best.empty() || judge.at(error, name, n) < judge.at(error, best, n)))
+          best = name;
+      }
       const double ours = judge.at(error, kernel, n), theirs = judge.at(error, best, n);
       judge.add(fmt::format("table 2 optimal N={} {}", n, error), fmt::format("{:.5f} ({})", theirs, best),
                 fmt::format("{:.5f} ({})", ours, kernel), theirs <= ours,
-                theirs <= ours ? "lower only by violating eq. (39)" : "eq. (39) exact, and better");
+                lower < ours ? fmt::format("{:.5f} of the paper only by violating eq. (39)", lower)
+                             : "eq. (39) exact, and less than any column");
     }
   for (const auto& [set, claimed] : {std::pair{" optimal", "P.C"}, {" positive", "L.S"}}) {
     std::string best;
@@ -182,9 +188,15 @@ void judge_ridges(Judge& judge) {
       (which.body.starts_with("bar") ? bars : plates) =
           std::max(which.body.starts_with("bar") ? bars : plates, value);
   judge.add("fig. 5 perfect agreement", "markers on the map", fmt::format("{:.4f} bins at most", bars),
-            bars < 0.02, "of the curve of the time-discrete lattice");
+            bars < 0.02, "from what central differences make of the lattice's curve");
+  double ghosts = 1.0;
+  for (const auto& [which, value] : judge.results)
+    if (which.quantity == "row_ghost") ghosts = std::min(ghosts, value);
   judge.add("fig. 8 perfect fit", "markers on the map", fmt::format("{:.4f} bins at most", plates),
             plates < 0.02, "along O-M-Y-O, both branches");
+  judge.add("fig. 8 ghosts", "higher-order modes",
+            fmt::format("{:.0f} % of a row's peaks where d omega/d k_y = 0", 100.0 * ghosts), ghosts > 0.9,
+            "no modes of the lattice: one row of nodes cannot tell waves of one k_x apart");
 }
 
 }  // namespace
