@@ -2,7 +2,9 @@
 #include "bond_form.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <variant>
 
 #include "linalg/vector_kernels.hpp"
 
@@ -71,15 +73,23 @@ template <>
 }
 
 /// K u of particles [begin, end) by free dof, to y[0 ..) from row `first` on.
-template <int Dim>
+template <int Dim, bool Signed>
 [[gnu::always_inline]] inline void sum_particles(const BondForm<Dim>& form, const double* u, Index begin,
                                                  Index end, Index first, double* y) {
   const Index* number = form.u.empty() ? nullptr : form.body->boundary.free_number.data();
   for (Index i = begin; i < end; ++i) {
     const std::size_t dof = static_cast<std::size_t>(i) * Dim;
     double sum[Dim];
-    sum_ends<Dim>(form.b.data() + form.start[i] * Dim, form.neighbour.data() + form.start[i], form.ends[i], u,
+    const Index pull = Signed ? form.positive[i] : form.ends[i];
+    sum_ends<Dim>(form.b.data() + form.start[i] * Dim, form.neighbour.data() + form.start[i], pull, u,
                   u + dof, sum);
+    if constexpr (Signed) {
+      const Offset first_push = form.start[i] + pull;
+      double push[Dim];
+      sum_ends<Dim>(form.b.data() + first_push * Dim, form.neighbour.data() + first_push, form.ends[i] - pull,
+                    u, u + dof, push);
+      for (int a = 0; a < Dim; ++a) sum[a] -= push[a];
+    }
     for (int a = 0; a < Dim; ++a) {
       if (number == nullptr)
         y[dof + a - first] = sum[a];
@@ -89,18 +99,19 @@ template <int Dim>
   }
 }
 
-PERIMODE_EVERY_PROCESSOR void sum_1(const BondForm<1>& form, const double* u, Index begin, Index end,
-                                    Index first, double* y) {
-  sum_particles<1>(form, u, begin, end, first, y);
-}
-PERIMODE_EVERY_PROCESSOR void sum_2(const BondForm<2>& form, const double* u, Index begin, Index end,
-                                    Index first, double* y) {
-  sum_particles<2>(form, u, begin, end, first, y);
-}
-PERIMODE_EVERY_PROCESSOR void sum_3(const BondForm<3>& form, const double* u, Index begin, Index end,
-                                    Index first, double* y) {
-  sum_particles<3>(form, u, begin, end, first, y);
-}
+#define PERIMODE_SUMS(D)                                                                                  \
+  PERIMODE_EVERY_PROCESSOR void sum_##D(const BondForm<D>& form, const double* u, Index begin, Index end, \
+                                        Index first, double* y) {                                         \
+    sum_particles<D, false>(form, u, begin, end, first, y);                                               \
+  }                                                                                                       \
+  PERIMODE_EVERY_PROCESSOR void signed_sum_##D(const BondForm<D>& form, const double* u, Index begin,     \
+                                               Index end, Index first, double* y) {                       \
+    sum_particles<D, true>(form, u, begin, end, first, y);                                                \
+  }
+PERIMODE_SUMS(1)
+PERIMODE_SUMS(2)
+PERIMODE_SUMS(3)
+#undef PERIMODE_SUMS
 
 /// All dofs free and no ghosts: the product reads x itself.
 template <int Dim>
@@ -123,9 +134,10 @@ void expand(const BoundaryMap<Dim>& boundary, const double* x, std::vector<doubl
 
 template <int Dim>
 void sum_slice(const BondForm<Dim>& form, const double* u, Index begin, Index end, Index first, double* y) {
-  if constexpr (Dim == 1) sum_1(form, u, begin, end, first, y);
-  if constexpr (Dim == 2) sum_2(form, u, begin, end, first, y);
-  if constexpr (Dim == 3) sum_3(form, u, begin, end, first, y);
+  const bool some_negative = !form.positive.empty();
+  if constexpr (Dim == 1) (some_negative ? signed_sum_1 : sum_1)(form, u, begin, end, first, y);
+  if constexpr (Dim == 2) (some_negative ? signed_sum_2 : sum_2)(form, u, begin, end, first, y);
+  if constexpr (Dim == 3) (some_negative ? signed_sum_3 : sum_3)(form, u, begin, end, first, y);
 }
 
 /// Displacements the bonds read: those of all particles and ghosts.
@@ -137,6 +149,21 @@ const double* all_displacements(BondForm<Dim>& form, const double* x) {
 }
 
 constexpr Index slice = 256;  ///< particles
+
+/// Alive ends of a particle before one of them.
+template <int Dim>
+Offset alive_before(const GridBonds<Dim>& bonds, Index particle, Offset slot) {
+  const std::uint64_t* bits = bonds.alive.data() + static_cast<std::size_t>(particle) * bonds.words;
+  Offset count = 0;
+  for (Offset w = 0; w < slot / 64; ++w) count += std::popcount(bits[w]);
+  return count + std::popcount(bits[slot / 64] & ((std::uint64_t{1} << (slot % 64)) - 1));
+}
+template <int Dim>
+Offset alive_before(const CloudBonds<Dim>& bonds, Index particle, Offset slot) {
+  Offset count = 0;
+  for (Offset e = bonds.start[particle]; e < slot; ++e) count += is_alive(bonds, particle, e) ? 1 : 0;
+  return count;
+}
 
 }  // namespace
 
@@ -174,8 +201,22 @@ Index BondForm<Dim>::pieces() const {
 }
 
 template <int Dim>
-void BondForm<Dim>::remove(Index particle, Offset position) {
-  const Offset at = start[particle] + position;
+void BondForm<Dim>::remove(Index particle, Offset slot) {
+  Offset alike = 0;  // alive ends of the same sign before it
+  bool negative = false;
+  if (positive.empty()) {
+    alike = std::visit([&](const auto& bonds) { return alive_before(bonds, particle, slot); }, body->bonds);
+  } else {
+    Offset before[2] = {};
+    for_each_bond(body->bonds, particle, Which::alive, [&](const BondEnd<Dim>& end) {
+      const bool of_end = bond_stiffness(*body, particle, end) < 0.0;
+      if (end.slot == slot) negative = of_end;
+      if (end.slot < slot) ++before[of_end ? 1 : 0];
+    });
+    alike = before[negative ? 1 : 0];
+  }
+  const Offset at = start[particle] + alike + (negative ? positive[particle] : 0);
+  if (!positive.empty() && !negative) --positive[particle];
   const Offset last = start[particle] + ends[particle]--;
   std::copy(neighbour.begin() + at + 1, neighbour.begin() + last, neighbour.begin() + at);
   std::copy(b.begin() + (at + 1) * Dim, b.begin() + last * Dim, b.begin() + at * Dim);
@@ -198,14 +239,26 @@ BondForm<Dim> make_bond_form(const Body<Dim>& body) {
   }
   form.neighbour.resize(static_cast<std::size_t>(ends));
   form.b.resize(static_cast<std::size_t>(ends) * Dim);
+  const bool some_negative = softening(body);
+  if (some_negative) form.positive.assign(static_cast<std::size_t>(n), 0);
 #pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index i = 0; i < n; ++i) {
     Offset at = form.start[i];
-    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-      const Point<Dim> b = std::sqrt(bond_stiffness(body, i, end)) / end.length * end.xi;
+    const auto add = [&](const BondEnd<Dim>& end, double k) {
+      const Point<Dim> b = std::sqrt(std::abs(k)) / end.length * end.xi;
       form.neighbour[at] = end.neighbour;
       std::copy_n(b.data(), Dim, form.b.data() + at * Dim);
       ++at;
+    };
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const double k = bond_stiffness(body, i, end);
+      if (!(k < 0.0)) add(end, k);
+    });
+    if (!some_negative) continue;
+    form.positive[i] = static_cast<Index>(at - form.start[i]);
+    for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const double k = bond_stiffness(body, i, end);
+      if (k < 0.0) add(end, k);
     });
   }
   if (!unconstrained(body)) form.u.resize((static_cast<std::size_t>(n) + body.boundary.image.size()) * Dim);
@@ -222,7 +275,8 @@ double bond_form_bytes(const Body<Dim>& body) {
   const double points =
       unconstrained(body) ? 0.0 : static_cast<double>(n) + static_cast<double>(body.boundary.image.size());
   return static_cast<double>(ends) * (sizeof(Index) + Dim * sizeof(double)) +
-         n * (sizeof(Offset) + sizeof(Index)) + points * Dim * sizeof(double) + sizeof(BondForm<Dim>);
+         n * (sizeof(Offset) + (softening(body) ? 2 : 1) * sizeof(Index)) + points * Dim * sizeof(double) +
+         sizeof(BondForm<Dim>);
 }
 
 #define PERIMODE_BOND_FORM(D)                             \

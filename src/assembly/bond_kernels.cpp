@@ -113,8 +113,9 @@ struct Varied {
           run.stiffness[static_cast<std::ptrdiff_t>(c.block[t + lane + run.step[k]]) * run.members + k];
     }
     const Vector scaled = mine * here, partner = other * there;
-    return load(c.block + t) == at(c.block, k) ? (0.5 * mine + 0.5 * other) * here
-                                               : 2.0 * (scaled * partner) / (scaled + partner);
+    const Vector product = scaled * partner;
+    const Vector series = product > 0.0 ? 2.0 * product / (scaled + partner) : Vector{};
+    return load(c.block + t) == at(c.block, k) ? (0.5 * mine + 0.5 * other) * here : series;
   }
   [[gnu::always_inline]] inline Vector limit(int k) const {
     const CellValues& c = run.cells;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/assembly/breakable_stiffness.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <utility>
 #include <variant>
@@ -33,29 +30,12 @@ Listed listed(const Body<Dim>& body, const BondRef& bond) {
   return {std::min(bond, image), std::max(bond, image)};
 }
 
-/// Alive ends of a particle before one of them.
-template <int Dim>
-Offset alive_before(const GridBonds<Dim>& bonds, const BondRef& bond) {
-  const std::uint64_t* bits = bonds.alive.data() + static_cast<std::size_t>(bond.particle) * bonds.words;
-  Offset count = 0;
-  for (Offset w = 0; w < bond.slot / 64; ++w) count += std::popcount(bits[w]);
-  return count + std::popcount(bits[bond.slot / 64] & ((std::uint64_t{1} << (bond.slot % 64)) - 1));
-}
-template <int Dim>
-Offset alive_before(const CloudBonds<Dim>& bonds, const BondRef& bond) {
-  Offset count = 0;
-  for (Offset e = bonds.start[bond.particle]; e < bond.slot; ++e)
-    count += is_alive(bonds, bond.particle, e) ? 1 : 0;
-  return count;
-}
-
 /// The forms follow one end each; `refresh` comes after all of them, with the particles concerned.
 template <int Dim>
 void take_out(Stencil<Dim>&, const Body<Dim>&, const BondRef&) {}
 template <int Dim>
-void take_out(BondForm<Dim>& form, const Body<Dim>& body, const BondRef& bond) {
-  form.remove(bond.particle,
-              std::visit([&](const auto& bonds) { return alive_before(bonds, bond); }, body.bonds));
+void take_out(BondForm<Dim>& form, const Body<Dim>&, const BondRef& bond) {
+  form.remove(bond.particle, bond.slot);
 }
 template <int Dim>
 void take_out(BlockForm<Dim>&, const Body<Dim>&, const BondRef&) {}
@@ -90,25 +70,20 @@ std::vector<BondRef> with_images(const Body<Dim>& body, std::vector<BondRef> bon
 }
 
 template <int Dim>
-SparseColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds) {
+BondColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds) {
   const auto& number = body.boundary.free_number;
-  SparseColumns columns;
-  columns.rows = body.boundary.free;
+  BondColumns result;
+  result.positive.rows = result.negative.rows = body.boundary.free;
   for (std::size_t b = 0; b < bonds.size(); ++b) {
     const Index i = bonds[b].particle;
     const BondEnd<Dim> end = bond_end(body, bonds[b]);
     const double k = bond_stiffness(body, i, end);
-    if (!(k >= 0.0)) {
-      invalid_input({"bonds of positive stiffness",
-                     fmt::format("{} N/m at particle {}", k, i),
-                     "use a micromodulus that is positive within the horizon",
-                     {}});
-    }
+    SparseColumns& columns = k < 0.0 ? result.negative : result.positive;
     // [n; -C n]: the partner is a particle with C = 1, or a ghost u = C u_j.
     const Point<Dim> n = end.xi / end.length;
     Index j = end.neighbour;
     Point<Dim> c = Point<Dim>::Ones();
-    double root = std::sqrt(k);
+    double root = std::sqrt(std::abs(k));
     if (j >= body.count()) {
       const auto ghost = static_cast<std::size_t>(j - body.count());
       j = body.boundary.image[ghost];
@@ -136,7 +111,7 @@ SparseColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds
     if (columns.start.back() == static_cast<Offset>(columns.row.size())) continue;
     columns.start.push_back(static_cast<Offset>(columns.row.size()));
   }
-  return columns;
+  return result;
 }
 
 template <int Dim>
@@ -208,7 +183,7 @@ void BreakableStiffness<Dim>::break_bonds(std::span<const BondRef> bonds) {
 
 #define PERIMODE_BREAKABLE(D)                                                         \
   template std::vector<BondRef> with_images<D>(const Body<D>&, std::vector<BondRef>); \
-  template SparseColumns bond_columns<D>(const Body<D>&, std::span<const BondRef>);   \
+  template BondColumns bond_columns<D>(const Body<D>&, std::span<const BondRef>);     \
   template class BreakableStiffness<D>
 PERIMODE_BREAKABLE(1);
 PERIMODE_BREAKABLE(2);

@@ -74,6 +74,33 @@ Particles<Dim> make_particles(const Model& model) {
   return particles;
 }
 
+/// The period of a cloud per axis, 0 where it does not repeat itself.
+template <int Dim>
+Point<Dim> cloud_period(const Model& model, const Particles<Dim>& particles) {
+  const auto& spec = std::get<CloudSpec>(model.particles);
+  Point<Dim> period = Point<Dim>::Zero();
+  for (int a = 0; a < Dim; ++a) {
+    if (!model.periodic[a]) continue;
+    const double given = static_cast<std::size_t>(a) < spec.period.size() ? spec.period[a] : 0.0;
+    if (!(given > 0.0) || !std::isfinite(given)) {
+      invalid_input({fmt::format("a period > 0 (m) of the cloud along {}, which is periodic", "xyz"[a]),
+                     spec.period.empty() ? "none" : fmt::format("{}", given),
+                     "write particles: { file: cloud.csv, period: [..] }, a number per axis", spec.where});
+    }
+    const auto [low, high] =
+        std::minmax_element(particles.position.begin(), particles.position.end(),
+                            [a](const Point<Dim>& x, const Point<Dim>& y) { return x[a] < y[a]; });
+    const double extent = (*high)[a] - (*low)[a];
+    if (!(extent < given * (1.0 - 1e-9))) {
+      invalid_input({fmt::format("particles that lie within one period along {}, {:.6g} m", "xyz"[a], given),
+                     fmt::format("an extent of {:.6g} m", extent),
+                     "leave out particles that are images of others, or lengthen the period", spec.where});
+    }
+    period[a] = given;
+  }
+  return period;
+}
+
 template <int Dim>
 Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
   const HorizonSpec& h = model.horizon;
@@ -98,14 +125,15 @@ Bonds<Dim> make_bonds(const Model& model, const Particles<Dim>& particles) {
     }
     const bool walls = std::any_of(model.boundary.begin(), model.boundary.end(),
                                    [](const auto& c) { return std::holds_alternative<Wall>(c.what); });
-    if (walls || model.periodic[0] || model.periodic[1] || model.periodic[2]) {
-      invalid_input({"a grid where there are walls or periodic axes", "a cloud",
-                     "use a grid, or fix regions of the cloud", std::get<CloudSpec>(model.particles).where});
+    if (walls) {
+      invalid_input({"a grid where there are walls", "a cloud", "use a grid, or fix regions of the cloud",
+                     std::get<CloudSpec>(model.particles).where});
     }
+    const Point<Dim> period = cloud_period(model, particles);
     std::vector<double> horizon(particles.count(), h.value);
     if (h.rule == HorizonSpec::Rule::neighbours)
-      horizon = cloud_horizons(particles, static_cast<int>(h.value));
-    return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model));
+      horizon = cloud_horizons(particles, static_cast<int>(h.value), period);
+    return make_cloud_bonds(particles, horizon, model.volume_correction, section_of(model), period);
   } catch (const Error& error) {
     throw at(error, h.where);
   }
@@ -193,6 +221,30 @@ void calibrate(BondConstants& constants, const Body<Dim>& body, const std::vecto
   }
 }
 
+/// The harmonic mean of a negative and a positive micromodulus is no stiffness of two springs in series.
+template <int Dim>
+void require_equal_signs(const Body<Dim>& body, const std::vector<BlockMaterial>& blocks) {
+  const auto* grid = std::get_if<GridBonds<Dim>>(&body.bonds);
+  if (grid == nullptr || blocks.size() < 2 || !softening(body)) return;
+  const auto& block = body.particles.block;
+  const std::vector<double>& kernel = body.constants.kernel;
+  const auto size = static_cast<std::size_t>(body.constants.family_size);
+  for (Index i = 0; i < body.count(); ++i) {
+    for_each_bond(*grid, i, Which::alive, [&](const BondEnd<Dim>& end) {
+      const Index j = owner(body.bonds, end.neighbour, body.count());
+      const auto member = static_cast<std::size_t>(end.slot);
+      const double ci = kernel[static_cast<std::size_t>(block[i]) * size + member];
+      const double cj = kernel[static_cast<std::size_t>(block[j]) * size + member];
+      if (block[i] == block[j] || (ci < 0.0) == (cj < 0.0) || ci == 0.0 || cj == 0.0) return;
+      const std::size_t negative = static_cast<std::size_t>(ci < 0.0 ? block[i] : block[j]);
+      invalid_input({"micromoduli of one sign for the bonds between two blocks",
+                     fmt::format("{:.4g} and {:.4g} N/m6 at bonds of length {:.6g} m", ci, cj, end.length),
+                     "use kernels of one sign in blocks that touch, or one material",
+                     blocks[negative].material.where});
+    });
+  }
+}
+
 }  // namespace
 
 template <int Dim>
@@ -201,6 +253,7 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
     invalid_input({fmt::format("a model of dimension {}", Dim), fmt::format("{}", model.dimension),
                    "build the body for the model's dimension", model.where});
   }
+  require_lattice_kernel_fits(model);
   require_positive(section_of(model), Dim == 1 ? "body.area" : "body.thickness", model.where);
   sink.report("particles");
   Body<Dim> body;
@@ -237,6 +290,7 @@ Body<Dim> build_body(const Model& model, const Sink& sink) {
   if (model.calibration == Calibration::discrete_cut) {
     calibrate(body.constants, body, blocks, true, model.material.where);
   }
+  require_equal_signs(body, blocks);
   sink.report("boundary");
   body.boundary = make_boundary_map<Dim>(
       body.particles, body.bonds, model.boundary,
@@ -269,7 +323,7 @@ double bond_stiffness(const Body<Dim>& body, Index i, const BondEnd<Dim>& end) {
     cj *= constants.factor[j];
   }
   double c = 0.5 * (ci + cj);
-  if (block[i] != block[j]) c = ci + cj > 0.0 ? 2.0 * (ci * cj) / (ci + cj) : 0.0;
+  if (block[i] != block[j]) c = ci * cj > 0.0 ? 2.0 * (ci * cj) / (ci + cj) : 0.0;
   return c * end.weight * (body.particles.volume[i] * body.particles.volume[j]) / end.length;
 }
 

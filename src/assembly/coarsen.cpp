@@ -317,6 +317,30 @@ std::vector<double> matched_factors(const Body<Dim>& fine, const Body<Dim>& coar
   return factor;
 }
 
+/// Micromoduli of coarse levels: the fine ones, where none is negative. Negative ones would leave families
+/// that lack half of their bonds with little or nothing to resist with; then every family member of a block
+/// gets the mean that stores the same energy of dilation, sum_b k_b |xi|^2.
+template <int Dim>
+std::vector<double> coarse_kernel(const Body<Dim>& fine, const Family<Dim>& family) {
+  std::vector<double> kernel = fine.constants.kernel;
+  if (!softening(fine)) return kernel;
+  const auto size = static_cast<std::size_t>(family.size());
+  for (std::size_t first = 0; first < kernel.size(); first += size) {
+    double energy = 0.0;
+    double all = 0.0;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < size; ++k) {
+      const double share = family.weight[k] * family.length[k];
+      energy += kernel[first + k] * share;
+      all += share;
+      largest = std::max(largest, std::abs(kernel[first + k]));
+    }
+    std::fill_n(kernel.begin() + static_cast<std::ptrdiff_t>(first), size,
+                energy > 0.0 ? energy / all : largest);
+  }
+  return kernel;
+}
+
 }  // namespace
 
 template <int Dim>
@@ -347,7 +371,7 @@ Body<Dim> coarsen(const Body<Dim>& fine) {
 
   // k_b = c beta V^2 / |xi| has to grow by 2^(Dim-2): elastic moduli are k_b |xi|^2 / volume.
   coarse.constants.family_size = fine.constants.family_size;
-  coarse.constants.kernel = fine.constants.kernel;
+  coarse.constants.kernel = coarse_kernel(fine, bonds->family);
   for (double& c : coarse.constants.kernel) c *= std::ldexp(1.0, Dim - 2 + 1 - 2 * Dim);
   coarse.constants.factor = matched_factors(fine, coarse, children);
   return coarse;

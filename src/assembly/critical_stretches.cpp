@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "perimode/material/critical_stretch.hpp"
@@ -24,6 +26,45 @@ double mean_horizon(const Body<Dim>& body, int block) {
   return ends > 0 ? sum / static_cast<double>(ends) : 0.0;
 }
 
+namespace {
+
+template <int Dim>
+bool some_negative(const Body<Dim>& body, int block) {
+  const BondConstants& constants = body.constants;
+  const auto below_zero = [](double c) { return c < 0.0; };
+  if (constants.kernel.empty())
+    return std::any_of(constants.kernel_of_end.begin(), constants.kernel_of_end.end(), below_zero);
+  const auto first = constants.kernel.begin() + static_cast<std::ptrdiff_t>(block) * constants.family_size;
+  return std::any_of(first, first + constants.family_size, below_zero);
+}
+
+}  // namespace
+
+template <int Dim>
+double fracture_energy_at(const Material& m, const Body<Dim>& body, int block, double critical_stretch,
+                          const Continuum& continuum) {
+  if (m.micromodulus.kernel == Kernel::shells) {
+    return lattice_fracture_energy(m.micromodulus, m.youngs_modulus, critical_stretch,
+                                   std::get<GridBonds<Dim>>(body.bonds).family, continuum);
+  }
+  return fracture_energy(m.micromodulus, m.youngs_modulus, critical_stretch, mean_horizon(body, block),
+                         continuum);
+}
+
+template <int Dim>
+bool negative_bonds_may_break(const Body<Dim>& body, const std::vector<double>& stretches) {
+  for (std::size_t block = 0; block < stretches.size(); ++block)
+    if (std::isfinite(stretches[block]) && some_negative(body, static_cast<int>(block))) return true;
+  return false;
+}
+
+std::string warning_of_negative_breaks() {
+  return "bonds of negative micromodulus may break (break_negative): a bond takes its energy with it when it "
+         "breaks, so the body gains energy wherever one of these does; look at the energy balance, and "
+         "compare "
+         "with a kernel without negative parts";
+}
+
 template <int Dim>
 std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body) {
   const Continuum continuum{Dim, model.plane, body.section};
@@ -31,6 +72,16 @@ std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body
   for (std::size_t block = 0; block < body.particles.block_names.size(); ++block) {
     const auto own = model.block_materials.find(body.particles.block_names[block]);
     const Material& m = own == model.block_materials.end() ? model.material : own->second;
+    if ((m.critical_stretch || m.fracture_energy) && !m.break_negative &&
+        some_negative(body, static_cast<int>(block))) {
+      invalid_input(
+          {"a micromodulus without negative parts in a material that breaks",
+           "bonds of negative stiffness: one that breaks takes negative energy out, so the body gains "
+           "energy",
+           "leave out fracture_energy and critical_stretch, optimise with bounds of 0, or set "
+           "break_negative: true to run all the same",
+           m.where});
+    }
     double s0 = std::numeric_limits<double>::infinity();
     if (m.critical_stretch) {
       s0 = *m.critical_stretch;
@@ -42,7 +93,8 @@ std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body
       const double horizon = mean_horizon(body, static_cast<int>(block));
       try {
         if (horizon > 0.0)
-          s0 = critical_stretch(m.micromodulus, m.youngs_modulus, *m.fracture_energy, horizon, continuum);
+          s0 = stretch_of(*m.fracture_energy,
+                          fracture_energy_at(m, body, static_cast<int>(block), 1.0, continuum));
       } catch (const Error& error) {
         throw at(error, m.where);
       }
@@ -52,6 +104,12 @@ std::vector<double> critical_stretches(const Model& model, const Body<Dim>& body
   return result;
 }
 
+template double fracture_energy_at<1>(const Material&, const Body<1>&, int, double, const Continuum&);
+template double fracture_energy_at<2>(const Material&, const Body<2>&, int, double, const Continuum&);
+template double fracture_energy_at<3>(const Material&, const Body<3>&, int, double, const Continuum&);
+template bool negative_bonds_may_break<1>(const Body<1>&, const std::vector<double>&);
+template bool negative_bonds_may_break<2>(const Body<2>&, const std::vector<double>&);
+template bool negative_bonds_may_break<3>(const Body<3>&, const std::vector<double>&);
 template double mean_horizon<1>(const Body<1>&, int);
 template double mean_horizon<2>(const Body<2>&, int);
 template double mean_horizon<3>(const Body<3>&, int);

@@ -21,6 +21,10 @@ void require_fits(const Model& model, const Material& material) {
                    model.volume_correction == VolumeCorrection::linear ? "linear" : "exact",
                    "its multipliers hold for whole cells", material.where});
   }
+  if (model.self_cell) {
+    invalid_input({fmt::format("no self cell with the kernel {}", name), "self_cell: true",
+                   "it belongs to the kernel inverse_distance", material.where});
+  }
   if (model.calibration != Calibration::continuum) {
     invalid_input({fmt::format("calibration continuum with the kernel {}", name),
                    model.calibration == Calibration::discrete ? "discrete" : "discrete_cut",

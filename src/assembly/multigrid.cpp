@@ -98,7 +98,7 @@ Multigrid multigrid(const Body<Dim>& body, const LinearOperator& stiffness, cons
       cycle.levels.push_back(std::move(level));
       break;
     }
-    level.inverse = invert_blocks(diagonal_blocks(*fine), Dim, fine->boundary.free_number);
+    level.inverse = invert_blocks(absolute_blocks(*fine), Dim, fine->boundary.free_number);
     if (last) {
       cycle.levels.push_back(std::move(level));
       break;

@@ -111,15 +111,19 @@ Eigen::VectorXd internal_force(const Body<Dim>& body, const BoundaryMap<Dim>& bo
   return force;
 }
 
-template <int Dim>
-std::vector<double> diagonal_blocks(const Body<Dim>& body) {
+namespace {
+
+/// Diagonal blocks of R K T, or with |k_b| in place of k_b.
+template <int Dim, bool Absolute>
+std::vector<double> blocks_of(const Body<Dim>& body) {
   const Index n = body.count();
   std::vector<double> blocks(static_cast<std::size_t>(n) * Dim * Dim, 0.0);
 #pragma omp parallel for schedule(static)
   for (Index i = 0; i < n; ++i) {
     double* block = blocks.data() + static_cast<std::size_t>(i) * Dim * Dim;
     for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
-      const double k = bond_stiffness(body, i, end);
+      const double signed_k = bond_stiffness(body, i, end);
+      const double k = Absolute ? std::abs(signed_k) : signed_k;
       const Point<Dim> e = end.xi / end.length;
       Point<Dim> share = Point<Dim>::Ones();
       if (end.neighbour >= n) {
@@ -134,6 +138,18 @@ std::vector<double> diagonal_blocks(const Body<Dim>& body) {
     });
   }
   return blocks;
+}
+
+}  // namespace
+
+template <int Dim>
+std::vector<double> diagonal_blocks(const Body<Dim>& body) {
+  return blocks_of<Dim, false>(body);
+}
+
+template <int Dim>
+std::vector<double> absolute_blocks(const Body<Dim>& body) {
+  return blocks_of<Dim, true>(body);
 }
 
 template <int Dim>
@@ -157,7 +173,8 @@ double stiffness_bound(const Body<Dim>& body) {
         if (j == i) return;
         for (int b = 0; b < Dim; ++b) {
           if (number[static_cast<std::size_t>(j) * Dim + b] < 0) continue;
-          for (int a = 0; a < Dim; ++a) sum[a] += k * std::abs(e[a] * e[b]) * std::abs(coefficient[b]);
+          for (int a = 0; a < Dim; ++a)
+            sum[a] += std::abs(k) * std::abs(e[a] * e[b]) * std::abs(coefficient[b]);
         }
       };
       if (end.neighbour < n) {
@@ -182,6 +199,7 @@ double stiffness_bound(const Body<Dim>& body) {
   template Eigen::VectorXd internal_force<D>(const Body<D>&, const Eigen::VectorXd&);                        \
   template Eigen::VectorXd internal_force<D>(const Body<D>&, const BoundaryMap<D>&, const Eigen::VectorXd&); \
   template std::vector<double> diagonal_blocks<D>(const Body<D>&);                                           \
+  template std::vector<double> absolute_blocks<D>(const Body<D>&);                                           \
   template double stiffness_bound<D>(const Body<D>&)
 PERIMODE_OPERATORS(1);
 PERIMODE_OPERATORS(2);

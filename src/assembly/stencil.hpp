@@ -51,7 +51,9 @@ struct Stencil {
   std::ptrdiff_t stride = 0;                     ///< numbers of a component of a layer
   std::vector<int> pair;                         ///< family member of each pair (StencilPairs)
   std::vector<int> pair_start;                   ///< per pattern of components
-  std::vector<double> b;                         ///< sqrt(k_b) n per set, pair and component
+  std::vector<double> b;                         ///< sqrt|k_b| n per set, pair and component
+  std::vector<double> f;                         ///< the same with the sign of k_b; empty: none is negative
+  bool some_negative = false;                    ///< softening(body)
   std::map<std::pair<int, double>, Index> sets;  ///< by material and calibration factor
   std::vector<double> factor;                    ///< calibration factors over the padded grid; empty: all 1
   std::vector<ParticleRun> run;

@@ -14,7 +14,7 @@ using Bits __attribute__((vector_size(width * sizeof(double)), aligned(8), may_a
 static_assert(stencil_slack == width);
 
 /// Adds the pairs whose offsets have the components of Pattern to y, for Groups * width particles.
-template <int Dim, int Pattern, int Groups>
+template <int Dim, int Pattern, int Groups, bool Signed>
 [[gnu::always_inline]] inline void add_whole_pairs(const StencilPairs& pairs, const StencilRun& run,
                                                    std::ptrdiff_t t, const Vector (&here)[Dim][Groups],
                                                    Vector (&y)[Dim][Groups]) {
@@ -22,6 +22,7 @@ template <int Dim, int Pattern, int Groups>
     const double* up = run.at[pairs.member[p]] + run.cell + t;
     const double* um = run.at[pairs.last - pairs.member[p]] + run.cell + t;
     const double* b = run.b + p * Dim;
+    const double* f = (Signed ? run.f : run.b) + p * Dim;
     Vector s[Groups] = {};
     for (int a = 0; a < Dim; ++a) {
       if ((Pattern >> a & 1) == 0) continue;
@@ -33,12 +34,12 @@ template <int Dim, int Pattern, int Groups>
     }
     for (int a = 0; a < Dim; ++a) {
       if ((Pattern >> a & 1) == 0) continue;
-      for (int g = 0; g < Groups; ++g) y[a][g] += b[a] * s[g];
+      for (int g = 0; g < Groups; ++g) y[a][g] += f[a] * s[g];
     }
   }
 }
 
-template <int Dim, int Groups>
+template <int Dim, int Groups, bool Signed>
 [[gnu::always_inline]] inline void whole_group(const StencilPairs& pairs, const StencilRun& run,
                                                std::ptrdiff_t t) {
   Vector here[Dim][Groups];
@@ -47,16 +48,16 @@ template <int Dim, int Groups>
     for (int g = 0; g < Groups; ++g)
       here[a][g] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t + g * width);
   }
-  add_whole_pairs<Dim, 1, Groups>(pairs, run, t, here, y);
+  add_whole_pairs<Dim, 1, Groups, Signed>(pairs, run, t, here, y);
   if constexpr (Dim > 1) {
-    add_whole_pairs<Dim, 2, Groups>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 3, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 2, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 3, Groups, Signed>(pairs, run, t, here, y);
   }
   if constexpr (Dim > 2) {
-    add_whole_pairs<Dim, 4, Groups>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 5, Groups>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 6, Groups>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 7, Groups>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 4, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 5, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 6, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pairs<Dim, 7, Groups, Signed>(pairs, run, t, here, y);
   }
   for (int a = 0; a < Dim; ++a) {
     for (int g = 0; g < Groups; ++g)
@@ -64,11 +65,11 @@ template <int Dim, int Groups>
   }
 }
 
-template <int Dim>
+template <int Dim, bool Signed>
 [[gnu::always_inline]] inline void whole(const StencilPairs& pairs, const StencilRun& run) {
   Index t = 0;
-  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2>(pairs, run, t);
-  if (t < run.count) whole_group<Dim, 1>(pairs, run, t);
+  for (; t + width < run.count; t += 2 * width) whole_group<Dim, 2, Signed>(pairs, run, t);
+  if (t < run.count) whole_group<Dim, 1, Signed>(pairs, run, t);
 }
 
 /// Weight per lane of the bond to a family member: 0 where it is not alive, (f_i + f_j) / 2 where it is.
@@ -86,7 +87,7 @@ template <bool Factors>
   }
 }
 
-template <int Dim, int Pattern, bool Factors>
+template <int Dim, int Pattern, bool Factors, bool Signed>
 [[gnu::always_inline]] inline void add_partial_pairs(const StencilPairs& pairs, const StencilRun& run,
                                                      const StencilBits& bits, std::ptrdiff_t t,
                                                      const Vector (&here)[Dim], const Vector& half,
@@ -96,6 +97,7 @@ template <int Dim, int Pattern, bool Factors>
     const double* up = run.at[k] + run.cell + t;
     const double* um = run.at[pairs.last - k] + run.cell + t;
     const double* b = run.b + p * Dim;
+    const double* f = (Signed ? run.f : run.b) + p * Dim;
     Vector plus, minus;
     bond_weights<Factors>(bits, k, t, half, plus);
     bond_weights<Factors>(bits, pairs.last - k, t, half, minus);
@@ -106,12 +108,12 @@ template <int Dim, int Pattern, bool Factors>
                    minus * (here[a] - *reinterpret_cast<const Vector*>(um + a * run.stride)));
     }
     for (int a = 0; a < Dim; ++a) {
-      if ((Pattern >> a & 1) != 0) y[a] += b[a] * s;
+      if ((Pattern >> a & 1) != 0) y[a] += f[a] * s;
     }
   }
 }
 
-template <int Dim, bool Factors>
+template <int Dim, bool Factors, bool Signed>
 [[gnu::always_inline]] inline void partial(const StencilPairs& pairs, const StencilRun& run,
                                            const StencilBits& bits) {
   for (Index t = 0; t < run.count; t += width) {
@@ -128,28 +130,28 @@ template <int Dim, bool Factors>
       here[a] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t);
     Vector half = Vector{} + 1.0;
     if constexpr (Factors) half = 0.5 * *reinterpret_cast<const Vector*>(bits.factor + t);
-    add_partial_pairs<Dim, 1, Factors>(pairs, run, bits, t, here, half, y);
+    add_partial_pairs<Dim, 1, Factors, Signed>(pairs, run, bits, t, here, half, y);
     if constexpr (Dim > 1) {
-      add_partial_pairs<Dim, 2, Factors>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 3, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 2, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 3, Factors, Signed>(pairs, run, bits, t, here, half, y);
     }
     if constexpr (Dim > 2) {
-      add_partial_pairs<Dim, 4, Factors>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 5, Factors>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 6, Factors>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 7, Factors>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 4, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 5, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 6, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pairs<Dim, 7, Factors, Signed>(pairs, run, bits, t, here, half, y);
     }
     for (int a = 0; a < Dim; ++a) *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t) = y[a];
   }
 }
 
-template <int Dim>
+template <int Dim, bool Signed>
 [[gnu::always_inline]] inline void partial_any(const StencilPairs& pairs, const StencilRun& run,
                                                const StencilBits& bits) {
   if (bits.factor != nullptr)
-    partial<Dim, true>(pairs, run, bits);
+    partial<Dim, true, Signed>(pairs, run, bits);
   else
-    partial<Dim, false>(pairs, run, bits);
+    partial<Dim, false, Signed>(pairs, run, bits);
 }
 
 template <int Dim>
@@ -168,18 +170,26 @@ template <int Dim>
   }
 }
 
-PERIMODE_EVERY_PROCESSOR void whole_1(const StencilPairs& p, const StencilRun& r) { whole<1>(p, r); }
-PERIMODE_EVERY_PROCESSOR void whole_2(const StencilPairs& p, const StencilRun& r) { whole<2>(p, r); }
-PERIMODE_EVERY_PROCESSOR void whole_3(const StencilPairs& p, const StencilRun& r) { whole<3>(p, r); }
-PERIMODE_EVERY_PROCESSOR void partial_1(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
-  partial_any<1>(p, r, b);
-}
-PERIMODE_EVERY_PROCESSOR void partial_2(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
-  partial_any<2>(p, r, b);
-}
-PERIMODE_EVERY_PROCESSOR void partial_3(const StencilPairs& p, const StencilRun& r, const StencilBits& b) {
-  partial_any<3>(p, r, b);
-}
+#define PERIMODE_STENCIL(D)                                                                    \
+  PERIMODE_EVERY_PROCESSOR void whole_##D(const StencilPairs& p, const StencilRun& r) {        \
+    whole<D, false>(p, r);                                                                     \
+  }                                                                                            \
+  PERIMODE_EVERY_PROCESSOR void partial_##D(const StencilPairs& p, const StencilRun& r,        \
+                                            const StencilBits& b) {                            \
+    partial_any<D, false>(p, r, b);                                                            \
+  }                                                                                            \
+  PERIMODE_EVERY_PROCESSOR void signed_whole_##D(const StencilPairs& p, const StencilRun& r) { \
+    whole<D, true>(p, r);                                                                      \
+  }                                                                                            \
+  PERIMODE_EVERY_PROCESSOR void signed_partial_##D(const StencilPairs& p, const StencilRun& r, \
+                                                   const StencilBits& b) {                     \
+    partial_any<D, true>(p, r, b);                                                             \
+  }
+PERIMODE_STENCIL(1)
+PERIMODE_STENCIL(2)
+PERIMODE_STENCIL(3)
+#undef PERIMODE_STENCIL
+
 PERIMODE_EVERY_PROCESSOR void apart_2(const double* from, Index n, std::ptrdiff_t stride, double* to) {
   apart<2>(from, n, stride, to);
 }
@@ -195,30 +205,20 @@ PERIMODE_EVERY_PROCESSOR void together_3(const double* from, Index n, std::ptrdi
 
 }  // namespace
 
-template <>
-void whole_families<1>(const StencilPairs& pairs, const StencilRun& run) {
-  whole_1(pairs, run);
-}
-template <>
-void whole_families<2>(const StencilPairs& pairs, const StencilRun& run) {
-  whole_2(pairs, run);
-}
-template <>
-void whole_families<3>(const StencilPairs& pairs, const StencilRun& run) {
-  whole_3(pairs, run);
-}
-template <>
-void partial_families<1>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
-  partial_1(pairs, run, bits);
-}
-template <>
-void partial_families<2>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
-  partial_2(pairs, run, bits);
-}
-template <>
-void partial_families<3>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) {
-  partial_3(pairs, run, bits);
-}
+#define PERIMODE_FAMILIES(D)                                                                            \
+  template <>                                                                                           \
+  void whole_families<D>(const StencilPairs& pairs, const StencilRun& run) {                            \
+    run.f ? signed_whole_##D(pairs, run) : whole_##D(pairs, run);                                       \
+  }                                                                                                     \
+  template <>                                                                                           \
+  void partial_families<D>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) { \
+    run.f ? signed_partial_##D(pairs, run, bits) : partial_##D(pairs, run, bits);                       \
+  }
+PERIMODE_FAMILIES(1)
+PERIMODE_FAMILIES(2)
+PERIMODE_FAMILIES(3)
+#undef PERIMODE_FAMILIES
+
 template <>
 void deinterleave<1>(const double* from, Index count, std::ptrdiff_t, double* to) {
   std::copy_n(from, count, to);

@@ -23,15 +23,16 @@ struct StencilPairs {
 };
 
 /// What a run of consecutive particles along x needs: displacements around it by family member, its own, and
-/// the family's b = sqrt(k_b) n, Dim per pair. Component a lies a * stride further on.
+/// the family's b = sqrt|k_b| n, Dim per pair. Component a lies a * stride further on.
 struct StencilRun {
   const double* const* at;  ///< per family member: x component at the member of the layer's cell 0
   const double* here;       ///< x component at the layer's cell 0
   std::ptrdiff_t stride;
   const double* b;
-  Index cell;   ///< of particle 0 of the run in its layer
-  Index count;  ///< particles
-  double* out;  ///< K u; component a at a * out_stride
+  const double* f;  ///< sign of k_b times b; null: no k_b is negative
+  Index cell;       ///< of particle 0 of the run in its layer
+  Index count;      ///< particles
+  double* out;      ///< K u; component a at a * out_stride
   std::ptrdiff_t out_stride;
 };
 
@@ -45,8 +46,8 @@ struct StencilBits {
   const Index* step;     ///< cells to each family member
 };
 
-/// K u of particles with whole families: sum over pairs of b (b . ((u_i - u_+) + (u_i - u_-))). Differences
-/// first: they are exact where the displacement is large and smooth, as in slender bodies.
+/// K u of particles with whole families: sum over pairs of f (b . ((u_i - u_+) + (u_i - u_-))), f = +-b.
+/// Differences first: they are exact where the displacement is large and smooth, as in slender bodies.
 template <int Dim>
 void whole_families(const StencilPairs& pairs, const StencilRun& run);
 

@@ -91,7 +91,7 @@ void add_pairs(Stencil<Dim>& s) {
   s.pair_start.push_back(static_cast<int>(s.pair.size()));
 }
 
-/// b = sqrt(k_b) n of the family of a block, all calibration factors equal.
+/// b = sqrt|k_b| n of the family of a block, all calibration factors equal.
 template <int Dim>
 Index add_set(Stencil<Dim>& s, int block, double factor) {
   const Family<Dim>& family = s.bonds->family;
@@ -99,9 +99,12 @@ Index add_set(Stencil<Dim>& s, int block, double factor) {
   const auto number = static_cast<Index>(s.b.size() / (s.pair.size() * Dim));
   for (const int k : s.pair) {
     const double c = factor * s.body->constants.kernel[static_cast<std::size_t>(block) * family.size() + k];
-    const double root = std::sqrt(c * family.weight[k] * (volume * volume) / family.length[k]);
-    for (int a = 0; a < Dim; ++a)
-      s.b.push_back(root * (family.spacing * family.offset[k][a] / family.length[k]));
+    const double root = std::sqrt(std::abs(c) * family.weight[k] * (volume * volume) / family.length[k]);
+    for (int a = 0; a < Dim; ++a) {
+      const double b = root * (family.spacing * family.offset[k][a] / family.length[k]);
+      s.b.push_back(b);
+      if (s.some_negative) s.f.push_back(c < 0.0 ? -b : b);
+    }
   }
   return number;
 }
@@ -222,6 +225,7 @@ Stencil<Dim> make_stencil(const Body<Dim>& body) {
   for (int a = 0; a < std::max(Dim - 1, 1); ++a) s.layer_cells *= s.bonds->padded[a];
   // An odd number of cache lines, so that layers and components do not crowd the same sets.
   s.stride = ((s.layer_cells + stencil_slack + 7) / 8 | 1) * 8;
+  s.some_negative = softening(body);
   add_pairs(s);
   add_factors(s);
   add_particle_runs(s);

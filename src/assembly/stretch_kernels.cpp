@@ -50,7 +50,7 @@ struct Bond<true> {
       const Vector scaled = f * a, partner = g * b;
       stiffness = load(run.block + t) == load(run.block + there)
                       ? (0.5 * f + 0.5 * g) * a
-                      : (scaled + partner > 0.0 ? 2.0 * (scaled * partner) / (scaled + partner) : Vector{});
+                      : (scaled * partner > 0.0 ? 2.0 * (scaled * partner) / (scaled + partner) : Vector{});
     }
     stiffness *= load(run.share + there);
   }

@@ -27,34 +27,68 @@ bool near_box(const Crack<Dim>& crack, const Point<Dim>& low, const Point<Dim>& 
   return ((b - low).array() >= 0.0).all() && ((high - a).array() >= 0.0).all();
 }
 
+/// Cracks and their images within a box.
+template <int Dim>
+struct CrackImages {
+  std::vector<Crack<Dim>> cracks;
+  Point<Dim> low, high;
+  double tolerance;
+
+  void add(const Crack<Dim>& image) {
+    const bool known = std::any_of(cracks.begin(), cracks.end(),
+                                   [&](const Crack<Dim>& c) { return same_place(c, image, tolerance); });
+    if (!known && near_box(image, low, high)) cracks.push_back(image);
+  }
+  void add_shifted(Crack<Dim> image, int axis, double by) {
+    for (auto& c : image.corner) c[axis] += by;
+    add(image);
+  }
+};
+
 /// The cracks with all their images in walls and periods that bonds of the grid can meet.
 template <int Dim>
 std::vector<Crack<Dim>> with_images(const GridBonds<Dim>& bonds, const Grid<Dim>& grid,
                                     std::vector<Crack<Dim>> cracks, double tolerance) {
   const double reach = (bonds.reach + 1) * grid.spacing;
-  const Point<Dim> low = grid.lower.array() - reach;
-  const Point<Dim> high = grid.upper().array() + reach;
-  const auto add = [&](const Crack<Dim>& image) {
-    const bool known = std::any_of(cracks.begin(), cracks.end(),
-                                   [&](const Crack<Dim>& c) { return same_place(c, image, tolerance); });
-    if (!known && near_box(image, low, high)) cracks.push_back(image);
-  };
-  for (std::size_t k = 0; k < cracks.size(); ++k) {  // grows: images of images
+  CrackImages<Dim> all{std::move(cracks), grid.lower.array() - reach, grid.upper().array() + reach,
+                       tolerance};
+  for (std::size_t k = 0; k < all.cracks.size(); ++k) {  // grows: images of images
     for (int a = 0; a < Dim; ++a) {
       const double period = grid.cells[a] * grid.spacing;
       for (int side = 0; side < 2; ++side) {
-        const Crack<Dim> original = cracks[k];
+        const Crack<Dim> original = all.cracks[k];
         if (bonds.beyond[2 * a + side] == Beyond::ghosts) {
-          add(reflected(original, a, grid.lower[a] + side * period));
+          all.add(reflected(original, a, grid.lower[a] + side * period));
         } else if (bonds.beyond[2 * a + side] == Beyond::periodic_image) {
-          Crack<Dim> image = original;
-          for (auto& c : image.corner) c[a] += side == 0 ? -period : period;
-          add(image);
+          all.add_shifted(original, a, side == 0 ? -period : period);
         }
       }
     }
   }
-  return cracks;
+  return all.cracks;
+}
+
+/// The cracks with all their periodic images that bonds of the cloud can meet.
+template <int Dim>
+std::vector<Crack<Dim>> with_images(const CloudBonds<Dim>& bonds, const Particles<Dim>& particles,
+                                    double reach, std::vector<Crack<Dim>> cracks, double tolerance) {
+  if ((bonds.period.array() == 0.0).all()) return cracks;
+  Point<Dim> low = particles.position.front();
+  Point<Dim> high = low;
+  for (const auto& x : particles.position) {
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  CrackImages<Dim> all{std::move(cracks), low.array() - reach, high.array() + reach, tolerance};
+  for (std::size_t k = 0; k < all.cracks.size(); ++k) {  // grows: images of images
+    for (int a = 0; a < Dim; ++a) {
+      if (bonds.period[a] == 0.0) continue;
+      const Crack<Dim> original = all.cracks[k];
+      all.add_shifted(original, a, -bonds.period[a]);
+      all.add_shifted(original, a, bonds.period[a]);
+    }
+  }
+  return all.cracks;
 }
 
 }  // namespace
@@ -69,8 +103,10 @@ std::vector<CrossingEnd> crossing_ends(const Bonds<Dim>& bonds, const Particles<
     cracks = with_images(*grid, *particles.grid, std::move(cracks), tolerance);
     reach = (grid->reach + 1) * grid->family.spacing;
   } else {
-    for (const auto& xi : std::get<CloudBonds<Dim>>(bonds).xi) reach = std::max(reach, xi.norm());
+    const auto& cloud = std::get<CloudBonds<Dim>>(bonds);
+    for (const auto& xi : cloud.xi) reach = std::max(reach, xi.norm());
     reach += tolerance;
+    cracks = with_images(cloud, particles, reach, std::move(cracks), tolerance);
   }
   auto all = cracks;
   join(all, tolerance);

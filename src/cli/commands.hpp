@@ -45,10 +45,12 @@ int run_crack_growth(const Case& input, const Arguments& arguments, Console& con
 int run_static(const Arguments& arguments, Console& console);
 int run_transient(const Arguments& arguments, Console& console);
 int run_quasistatic(const Arguments& arguments, Console& console);
+int run_dispersion(const Arguments& arguments, Console& console);
 int run_check(const Arguments& arguments, Console& console);
 int run_new_modal(const Arguments& arguments, Console& console);
 int run_new_static(const Arguments& arguments, Console& console);
 int run_new_transient(const Arguments& arguments, Console& console);
 int run_new_quasistatic(const Arguments& arguments, Console& console);
+int run_new_dispersion(const Arguments& arguments, Console& console);
 
 }  // namespace perimode::cli

@@ -44,6 +44,7 @@ constexpr const char* examples = R"(Examples:
   perimode static plate.yaml                    displacements under loads: fields.exo, reactions.csv
   perimode transient plate.yaml                 motion in time: history.csv, fields.exo
   perimode quasistatic plate.yaml               crack growth: load_curve.csv, crack_path.csv, fields.exo
+  perimode dispersion plate.yaml                how fast and how wrongly waves travel; a better micromodulus
   perimode transient plate.yaml --resume        go on with a run that was interrupted or killed
   perimode modal plate.yaml --set body.horizon.ratio=4 --output out/m4
 
@@ -148,7 +149,8 @@ int main(int argc, char** argv) {
   keep_freed_memory();
   perimode::cli::watch_for_interrupts();
   CLI::App app{
-      "Perimode: vibration modes, statics, motion in time and crack growth of bond-based peridynamic bodies",
+      "Perimode: vibration modes, statics, motion in time, crack growth and wave dispersion of bond-based "
+      "peridynamic bodies",
       "perimode"};
   app.footer(examples);
   app.set_version_flag("--version", version_text());
@@ -213,6 +215,15 @@ int main(int argc, char** argv) {
       "--force");
   quasistatic->callback([&] { command = [&](Console& c) { return run_quasistatic(arguments, c); }; });
 
+  CLI::App* dispersion =
+      app.add_subcommand("dispersion", "waves of the case's lattice and an optimised micromodulus");
+  common(dispersion);
+  result(dispersion);
+  dispersion->footer(
+      "Example: perimode dispersion plate.yaml --set analysis.dispersion.optimise.lower_bound=0 --output "
+      "out/plate --force");
+  dispersion->callback([&] { command = [&](Console& c) { return run_dispersion(arguments, c); }; });
+
   CLI::App* check = app.add_subcommand("check", "read a case and predict what it takes; runs nothing");
   common(check);
   check->callback([&] { command = [&](Console& c) { return run_check(arguments, c); }; });
@@ -231,6 +242,8 @@ int main(int argc, char** argv) {
   fresh_case("static", "a template for statics", perimode::cli::run_new_static);
   fresh_case("transient", "a template for motion in time", perimode::cli::run_new_transient);
   fresh_case("quasistatic", "a template for crack growth", perimode::cli::run_new_quasistatic);
+  fresh_case("dispersion", "a template for waves and a better micromodulus",
+             perimode::cli::run_new_dispersion);
 
   try {
     app.parse(argc, argv);

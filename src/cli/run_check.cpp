@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "cloud_dispersion.hpp"
 #include "commands.hpp"
+#include "dispersion_text.hpp"
 #include "machine.hpp"
 #include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/io/case.hpp"
@@ -99,6 +101,13 @@ Prediction check_quasistatic(const Body<Dim>& body, const Case& input) {
   return {quasistatic_plan_text(plan), plan.memory_bytes, "this quasi-static analysis", plan.warnings};
 }
 
+template <int Dim>
+Prediction check_dispersion(const Body<Dim>& body, const Case& input) {
+  if (!std::holds_alternative<GridSpec>(input.model.particles))
+    return {cloud_dispersion_plan_text(body, input), 0.0, ""};
+  return {dispersion_plan_text(make_lattice<Dim>(input.model), *input.dispersion), 0.0, ""};
+}
+
 /// All analyses of a case; modes where they are asked for, or nothing else is.
 template <int Dim>
 int check(const Case& input, Console& console) {
@@ -106,11 +115,12 @@ int check(const Case& input, Console& console) {
   const Body<Dim> body = build_body<Dim>(input.model, console.sink());
   console.stage("analysing", -1.0);
   std::vector<Prediction> predictions;
-  if (input.modal || !(input.statics || input.transient || input.quasistatic))
+  if (input.modal || !(input.statics || input.transient || input.quasistatic || input.dispersion))
     predictions.push_back(check_modal(body, input));
   if (input.statics) predictions.push_back(check_static(body, input));
   if (input.transient) predictions.push_back(check_transient(body, input));
   if (input.quasistatic) predictions.push_back(check_quasistatic(body, input));
+  if (input.dispersion) predictions.push_back(check_dispersion(body, input));
   console.clear_progress();
   fmt::print("{}: reads well\n", input.title.empty() ? input.file.filename().string() : input.title);
   for (const Prediction& prediction : predictions) fmt::print("{}", prediction.text);

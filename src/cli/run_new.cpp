@@ -51,4 +51,8 @@ int run_new_quasistatic(const Arguments& arguments, Console& console) {
   return write_template(quasistatic_template(), "quasistatic", arguments, console);
 }
 
+int run_new_dispersion(const Arguments& arguments, Console& console) {
+  return write_template(dispersion_template(), "dispersion", arguments, console);
+}
+
 }  // namespace perimode::cli

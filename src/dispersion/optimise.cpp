@@ -112,7 +112,8 @@ OptimisedMicromodulus optimum(const Family<Dim>& family, const std::vector<doubl
   constexpr int panels_for_kinks = 64;
   const int panels = options.points > 0 ? (options.points + 15) / 16 : panels_for_kinks;
   return least_absolute_error(sample_contour(family, rates, speeds, options.weights, panels), constraints,
-                              options.lower_bound.value_or(-std::numeric_limits<double>::infinity()));
+                              options.lower_bound.value_or(-std::numeric_limits<double>::infinity()),
+                              largest.alpha);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
+#include "dispersion/bounded_least_squares.hpp"
 #include "dispersion/linear_programme.hpp"
 #include "dispersion/optimise_parts.hpp"
 
@@ -32,30 +32,23 @@ LinearProgramme dual_programme(const SampledErrors& samples, const Eigen::Vector
 }  // namespace
 
 OptimisedMicromodulus least_absolute_error(const SampledErrors& samples, const Eigen::MatrixXd& constraints,
-                                           double lower) {
+                                           double lower, const Eigen::VectorXd& feasible) {
   const Eigen::VectorXd limits = samples.weights.cwiseProduct(samples.measure);
   const LinearOptimum optimum = solve_linear_programme(dual_programme(samples, limits, constraints, lower));
-  Eigen::VectorXd alpha = optimum.prices;
 
-  // The simplex method keeps constraints and bounds to its tolerance; here they hold to round-off.
+  // The simplex method keeps constraints and bounds to its tolerance. In the feasible point nearest to its
+  // prices they hold to round-off; prices at the bound are pulled beyond it, so that they end on it.
+  const Eigen::Index orbits = constraints.cols();
+  const double size = 1.0 + optimum.prices.lpNorm<Eigen::Infinity>();
+  Eigen::VectorXd wanted = optimum.prices;
+  for (double& price : wanted)
+    if (price <= lower + 1e-9 * size) price = lower - size;
+  const BoundedLeastSquares nearest{Eigen::MatrixXd::Identity(orbits, orbits), wanted, constraints,
+                                    Eigen::VectorXd::Ones(constraints.rows()), lower};
+  const BoundedMinimum minimum = minimise(nearest, feasible);
+  const Eigen::VectorXd& alpha = minimum.x;
   OptimisedMicromodulus result;
-  std::vector<Eigen::Index> free;
-  free.reserve(static_cast<std::size_t>(alpha.size()));
-  const double slack = 1e-8 * (1.0 + alpha.lpNorm<Eigen::Infinity>());
-  for (Eigen::Index i = 0; i < alpha.size(); ++i) {
-    if (alpha[i] > lower + slack) {
-      free.push_back(i);
-    } else {
-      alpha[i] = lower;
-      result.active.push_back(static_cast<int>(i));
-    }
-  }
-  const Eigen::MatrixXd of_free = constraints(Eigen::all, free);
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(of_free);
-  for (int round = 0; round < 2; ++round) {
-    const Eigen::VectorXd missing = Eigen::VectorXd::Ones(constraints.rows()) - constraints * alpha;
-    alpha(free) += decomposition.solve(missing);
-  }
+  result.active = minimum.active;
   const double primal = limits.dot((samples.values * alpha - samples.targets).cwiseAbs());
   result.alpha.assign(alpha.begin(), alpha.end());
   result.solver = "clp";

@@ -10,10 +10,11 @@ namespace perimode {
 /// lower (-infinity: none). The dual programme is solved, which has a row per orbit only:
 ///   max -targets . y + sum mu + lower sum z,  values^T y - constraints^T mu - z = 0,  |y| <= e measure, z >=
 ///   0;
-/// its prices are alpha. Fills alpha, active, solver and optimality = (primal - dual)/primal.
-/// Throws as solve_linear_programme.
+/// its prices are alpha, moved to the nearest feasible point from `feasible`, one such point. Fills alpha,
+/// active, solver and optimality = (primal - dual)/primal. Throws as solve_linear_programme.
 [[nodiscard]] OptimisedMicromodulus least_absolute_error(const SampledErrors& samples,
-                                                         const Eigen::MatrixXd& constraints, double lower);
+                                                         const Eigen::MatrixXd& constraints, double lower,
+                                                         const Eigen::VectorXd& feasible);
 
 /// Point and sub-domain collocation and Galerkin's method of a bar with n orbits: constraints alpha = 1 and
 /// n - 1 equations, with K(k) = omega^2/alpha of the orbits, k in 1/spacing:

@@ -81,19 +81,13 @@ void refuse_instability(const Body<Dim>& body, const Eigen::VectorXd& q, Complex
   invalid_input({"a material that resists every motion",
                  fmt::format("{} that grow{} at a rate of {:.4g} 1/s (lambda = {:.4g}{:+.2g}i 1/s^2)", motion,
                              body.particles.grid ? "" : "s", rate, lambda.real(), lambda.imag()),
-                 "take a micromodulus without negative parts, or walls that keep the equations symmetric",
+                 "take a micromodulus without negative parts, periodic axes instead of free surfaces, or "
+                 "walls that keep "
+                 "the equations symmetric",
                  {}});
 }
 
-template <int Dim>
-bool softening(const Body<Dim>& body) {
-  const auto below_zero = [](double c) { return c < 0.0; };
-  return std::any_of(body.constants.kernel.begin(), body.constants.kernel.end(), below_zero) ||
-         std::any_of(body.constants.kernel_of_end.begin(), body.constants.kernel_of_end.end(), below_zero);
-}
-
 #define PERIMODE_INSTABILITY(D)                                                          \
-  template bool softening<D>(const Body<D>&);                                            \
   template std::array<double, D> wave_vector<D>(const Body<D>&, const Eigen::VectorXd&); \
   template void refuse_instability<D>(const Body<D>&, const Eigen::VectorXd&, Complex)
 PERIMODE_INSTABILITY(1);

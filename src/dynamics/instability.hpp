@@ -21,8 +21,4 @@ template <int Dim>
 [[noreturn]] void refuse_instability(const Body<Dim>& body, const Eigen::VectorXd& q,
                                      std::complex<double> lambda);
 
-/// Whether some bond pulls where it should push: only then can a symmetric K have a negative eigenvalue.
-template <int Dim>
-[[nodiscard]] bool softening(const Body<Dim>& body);
-
 }  // namespace perimode

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "dynamics/given_forces.hpp"
-#include "dynamics/instability.hpp"
 #include "dynamics/transient_plan.hpp"
 #include "perimode/assembly/assemble.hpp"
 #include "perimode/assembly/operators.hpp"
@@ -108,12 +107,10 @@ void add_loads(const Body<Dim>& body, const std::vector<Load>& loads, Motion& mo
   }
 }
 
-/// Form of K. Softening bonds have no square root, which all forms but blocks keep. Stiffness damping of a
-/// body that breaks is that of the whole one, which the stencil, reading the alive bits, would forget.
-template <int Dim>
-StiffnessForm stored_form(const Body<Dim>& body, const TransientOptions& options) {
+/// Form of K. Stiffness damping of a body that breaks is that of the whole one, which the stencil, reading
+/// the alive bits, would forget.
+StiffnessForm stored_form(const TransientOptions& options) {
   const bool automatic = options.form == StiffnessForm::automatic;
-  if (automatic && softening(body)) return StiffnessForm::blocks;
   const bool reads_bits = automatic || options.form == StiffnessForm::stencil;
   if (reads_bits && needs_bond_forces(options) && options.rayleigh_stiffness > 0.0)
     return StiffnessForm::bonds;
@@ -126,7 +123,7 @@ template <int Dim>
 Motion make_motion(const Body<Dim>& body, const TransientOptions& options) {
   Motion motion;
   motion.mass = lumped_mass(body);
-  motion.stiffness = stiffness_rows(body, stored_form(body, options));
+  motion.stiffness = stiffness_rows(body, stored_form(options));
   motion.symmetric = asymmetry(as_operator(motion.stiffness)) <= symmetric_to_round_off;
   const std::vector<double> rate = damping_rates(body, options);
   if (!rate.empty()) {

@@ -142,7 +142,7 @@ LinearOperator shifted(const LinearOperator& stiffness, const Eigen::VectorXd& s
 
 template <int Dim>
 LinearOperator shifted_block_jacobi(const Body<Dim>& body, const Eigen::VectorXd& shift) {
-  std::vector<double> blocks = diagonal_blocks(body);
+  std::vector<double> blocks = absolute_blocks(body);
   for (std::size_t d = 0; d < body.boundary.free_number.size(); ++d) {
     const Index number = body.boundary.free_number[d];
     if (number >= 0) blocks[d * Dim + d % Dim] += shift[number];

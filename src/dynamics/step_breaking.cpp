@@ -122,10 +122,8 @@ class BodyBreaking final : public StepBreaking {
   void take_out(const std::vector<BondRef>& bonds) {
     if (bonds.empty()) return;
     if (solver_) {
-      SparseColumns none;
-      none.rows = body_->boundary.free;
-      const SparseColumns lost = bond_columns(*body_, std::span<const BondRef>(bonds));
-      solver_->change(none, lost);
+      const BondColumns lost = bond_columns(*body_, std::span<const BondRef>(bonds));
+      solver_->change(lost.negative, lost.positive);
       pending_ += lost.count();
       if (options_.factor && pending_ > most_updated) solver_->refresh();
     }

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/stopwatch.hpp"
+#include "dynamics/instability.hpp"
 #include "dynamics/probes.hpp"
 #include "dynamics/transient_plan.hpp"
 #include "perimode/dynamics/central_difference.hpp"
@@ -168,6 +169,11 @@ std::unique_ptr<Integrator> modal_integrator(const Body<Dim>& body, const Transi
   const ModalResult modes = solve_modes(body, modal, sink);
   if (modes.status == EigenStatus::not_converged)
     throw Error(ErrorKind::solver_failure, "the modes did not converge: " + modes.message);
+  if (modes.unstable > 0) {
+    Eigen::Index lowest = 0;
+    const double lambda = modes.eigenvalue.minCoeff(&lowest);
+    refuse_instability(body, modes.shape.col(lowest), lambda);
+  }
   result.truncation = truncation(motion, modes.shape, modes.eigenvalue, q, v);
   const double left_out = std::max(result.truncation.initial_energy, result.truncation.load);
   constexpr double much = 0.1;

@@ -10,6 +10,7 @@
 
 #include "dynamics/instability.hpp"
 #include "dynamics/probes.hpp"
+#include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/assembly/operators.hpp"
 #include "perimode/modal/plan.hpp"
 
@@ -186,6 +187,8 @@ TransientPlan plan_steps(const Body<Dim>& body, const TransientOptions& options,
     const double limit = largest_step(options, plan.stable);
     if (options.dt > limit * (1.0 + 1e-12)) refuse_step(options, plan, limit);
   }
+  if (negative_bonds_may_break(body, options.critical_stretch))
+    plan.warnings.push_back(warning_of_negative_breaks());
   const double grown = plan.stable.growth * plan.dt * static_cast<double>(plan.steps);
   if (grown > 0.1) {
     plan.warnings.push_back(fmt::format(

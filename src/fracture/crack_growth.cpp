@@ -86,7 +86,7 @@ class GrowingCrack {
   [[nodiscard]] CrackGrowthStep step(double fraction, CrackGrowthResult& result, const Sink& sink) {
     CrackGrowthStep step;
     step.fraction = fraction;
-    const SparseColumns columns = fraction > 0.0 ? cut(fraction, step) : SparseColumns{};
+    const BondColumns columns = fraction > 0.0 ? cut(fraction, step) : BondColumns{};
     step.cut = cut_;
     const auto factoring = Clock::now();
     step.factor = follow(columns);
@@ -105,7 +105,7 @@ class GrowingCrack {
   [[nodiscard]] Offset factor_nonzeros() const { return factor_.fill().nonzeros; }
 
  private:
-  SparseColumns cut(double fraction, CrackGrowthStep& step) {
+  BondColumns cut(double fraction, CrackGrowthStep& step) {
     const auto cracks = grown_precracks<Dim>(model_, fraction);
     step.crack_length = total_extent(cracks);
     std::vector<BondRef> bonds;
@@ -114,18 +114,16 @@ class GrowingCrack {
       bonds.push_back({end.particle, end.slot});
     bonds = with_images(body_, std::move(bonds));
     cut_ += static_cast<Offset>(bonds.size());
-    SparseColumns columns = bond_columns(body_, std::span<const BondRef>(bonds));
+    BondColumns columns = bond_columns(body_, std::span<const BondRef>(bonds));
     stiffness_.break_bonds(bonds);
     return columns;
   }
 
-  GrowthFactor follow(const SparseColumns& columns) {
+  GrowthFactor follow(const BondColumns& columns) {
     if (factored_ && columns.count() == 0) return GrowthFactor::updated;
     if (factored_ && cheaper_updated(columns.count())) {
       const auto begin = Clock::now();
-      SparseColumns none;
-      none.rows = columns.rows;
-      if (factor_.update(none, columns).status == FactorStatus::done) {
+      if (factor_.update(columns.negative, columns.positive).status == FactorStatus::done) {
         column_seconds_ = seconds_since(begin) / columns.count();
         return GrowthFactor::updated;
       }

@@ -61,7 +61,7 @@ std::vector<double> intact_springs(const Body<Dim>& body) {
     const Index number = body.boundary.free_number[dof];
     if (number >= 0) sum += d[static_cast<std::size_t>(number)] = blocks[dof * Dim + dof % Dim];
   }
-  const double mean = sum / static_cast<double>(std::max<std::size_t>(1, d.size()));
+  const double mean = std::abs(sum) / static_cast<double>(std::max<std::size_t>(1, d.size()));
   for (double& x : d) x = x > 1e-6 * mean ? x : mean;
   return d;
 }
@@ -138,7 +138,7 @@ Index Equilibrium<Dim>::mechanism_dof() const {
 template <int Dim>
 LinearOperator Equilibrium<Dim>::preconditioner() const {
   if (Dim == 2 && body_->particles.grid && pins_->empty()) return multigrid(*body_, product_).preconditioner;
-  std::vector<double> blocks = diagonal_blocks(*body_);
+  std::vector<double> blocks = absolute_blocks(*body_);
   for (std::size_t d = 0; d < body_->boundary.free_number.size(); ++d) {
     const Index number = body_->boundary.free_number[d];
     if (number >= 0 && pinned(number)) blocks[d * Dim + d % Dim] += spring(number);
@@ -153,11 +153,9 @@ SolveOutcome Equilibrium<Dim>::solve(const Eigen::MatrixXd& b, Eigen::MatrixXd& 
 
 template <int Dim>
 void Equilibrium<Dim>::break_bonds(std::span<const BondRef> bonds) {
-  SparseColumns none;
-  none.rows = body_->boundary.free;
-  const SparseColumns lost = bond_columns(*body_, bonds);
+  const BondColumns lost = bond_columns(*body_, bonds);
   stiffness_->break_bonds(bonds);
-  solver_->change(none, lost);
+  solver_->change(lost.negative, lost.positive);
 }
 
 template <int Dim>

@@ -8,7 +8,6 @@
 #include "perimode/assembly/critical_stretches.hpp"
 #include "perimode/assembly/precracks.hpp"
 #include "perimode/bonds/crossing.hpp"
-#include "perimode/material/critical_stretch.hpp"
 
 namespace perimode {
 
@@ -85,8 +84,8 @@ double fracture_energy_of(const Model& model, const Body<Dim>& body) {
     const auto own = model.block_materials.find(body.particles.block_names[block]);
     const Material& m = own == model.block_materials.end() ? model.material : own->second;
     if (m.fracture_energy) return *m.fracture_energy;
-    return fracture_energy(m.micromodulus, m.youngs_modulus, stretches[block],
-                           mean_horizon(body, static_cast<int>(block)), {Dim, model.plane, body.section});
+    return fracture_energy_at(m, body, static_cast<int>(block), stretches[block],
+                              {Dim, model.plane, body.section});
   }
   invalid_input({"a material that can break", "neither fracture_energy nor critical_stretch",
                  "give one of them", model.material.where});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <limits>
 
 #include "perimode/core/error.hpp"
 #include "perimode/fracture/griffith.hpp"
@@ -41,7 +42,9 @@ GriffithLoad griffith_load(const Body<Dim>& body, const std::vector<Load>& loads
   Body<Dim> longer = body;
   for (const BondRef& bond : bonds) break_bond(longer.bonds, bond.particle, bond.slot);
   load.energy_release_rate = (before - potential(longer, options)) / load.increment;
-  load.load_factor = std::sqrt(fracture_energy / load.energy_release_rate);
+  // Bonds of negative stiffness may make a crack release nothing: then no load lets it grow.
+  load.load_factor = load.energy_release_rate > 0.0 ? std::sqrt(fracture_energy / load.energy_release_rate)
+                                                    : std::numeric_limits<double>::infinity();
   return load;
 }
 

@@ -21,7 +21,7 @@ std::vector<Index> LooseSearch<Dim>::unheld_dofs(const Body<Dim>& body, const Eq
   Block block = Block::Zero();
   for_each_bond(body.bonds, i, Which::alive, [&](const BondEnd<Dim>& end) {
     const Point<Dim> n = end.xi / end.length;
-    block += bond_stiffness(body, i, end) * n * n.transpose();
+    block += std::abs(bond_stiffness(body, i, end)) * n * n.transpose();
   });
   double spring = 0.0;
   for (int a = 0; a < Dim; ++a) {

@@ -7,6 +7,7 @@
 
 #include "core/stopwatch.hpp"
 #include "fracture/crack_run.hpp"
+#include "perimode/assembly/critical_stretches.hpp"
 
 namespace perimode {
 
@@ -14,13 +15,15 @@ namespace {
 
 template <int Dim>
 QuasistaticPlan plan_of(const Body<Dim>& body, const QuasistaticProblem& problem,
-                        const EquilibriumChoice& choice) {
+                        const QuasistaticOptions& options, const EquilibriumChoice& choice) {
   QuasistaticPlan plan;
   plan.dofs = body.boundary.free;
   plan.bonds = count_bonds(body.bonds, body.count());
   plan.rigid_modes = static_cast<int>(problem.rigid.cols());
   plan.solver =
       fmt::format("{}: {}", choice.matrix_free ? "conjugate gradients" : "cholesky, updated", choice.reason);
+  if (negative_bonds_may_break(body, options.critical_stretch))
+    plan.warnings.push_back(warning_of_negative_breaks());
   return plan;
 }
 
@@ -35,7 +38,8 @@ QuasistaticResult run_quasistatic(Body<Dim>& body, const QuasistaticOptions& opt
   QuasistaticProblem problem = pose_quasistatic(body, options);
   sink.report("ordering");
   const EquilibriumChoice choice = choose_equilibrium(body, options.solver, options.matrix_free);
-  QuasistaticPlan plan = plan_of(body, problem, choice);
+  QuasistaticPlan plan = plan_of(body, problem, options, choice);
+  for (const std::string& warning : plan.warnings) sink.warn(warning);
   if (observer.begin) observer.begin(plan);
   if (plan.rigid_modes > 0) {
     sink.inform(fmt::format(
@@ -56,7 +60,7 @@ template <int Dim>
 QuasistaticPlan plan_quasistatic(const Body<Dim>& body, const QuasistaticOptions& options) {
   const QuasistaticProblem problem = pose_quasistatic(body, options);
   const EquilibriumChoice choice = choose_equilibrium(body, options.solver, options.matrix_free);
-  QuasistaticPlan plan = plan_of(body, problem, choice);
+  QuasistaticPlan plan = plan_of(body, problem, options, choice);
   const double vector = 8.0 * Dim * body.count();
   // Rigid motions and loads; drivings, solutions, states of the ledger and what the solver works in.
   double vectors = 10.0 + 4.0 * static_cast<double>(problem.parts.size()) + plan.rigid_modes;

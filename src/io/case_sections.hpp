@@ -34,7 +34,11 @@ struct InputFiles {
 /// The `body` section: everything of the model but materials and boundary.
 void read_body(const Cursor& cursor, InputFiles& files, Model& model);
 /// The `material` and `materials` sections of a model whose body has been read.
-void read_materials(const Cursor& material, const std::optional<Cursor>& overrides, Model& model);
+void read_materials(const Cursor& material, const std::optional<Cursor>& overrides, InputFiles& files,
+                    Model& model);
+/// The `micromodulus` section: what it gives replaces that of `result`. The body has been read.
+[[nodiscard]] Micromodulus read_micromodulus(const Cursor& cursor, const Model& model, InputFiles& files,
+                                             Micromodulus result);
 /// The `boundary` section of a model whose body has been read.
 void read_boundary(const Cursor& cursor, InputFiles& files, Model& model);
 /// constant | {ramp | step | half_sine | ricker | gaussian | table | expression}.
@@ -51,6 +55,8 @@ void read_boundary(const Cursor& cursor, InputFiles& files, Model& model);
 void read_transient(const Cursor& cursor, InputFiles& files, Case& result);
 /// The section analysis.quasistatic of a case whose model has been read.
 void read_quasistatic(const Cursor& cursor, InputFiles& files, Case& result);
+/// The section analysis.dispersion of a case whose model has been read.
+void read_dispersion(const Cursor& cursor, InputFiles& files, Case& result);
 /// The `analysis` section of a case whose model and kinematics have been read.
 void read_analysis(const Cursor& cursor, InputFiles& files, Case& result);
 [[nodiscard]] OutputSpec read_output(const Cursor& cursor);

@@ -225,4 +225,54 @@ output:
 )";
 }
 
+std::string_view dispersion_template() {
+  return R"(# How fast and how wrongly waves travel on a glass plate's lattice, and a micromodulus that does better.
+# Run:    perimode dispersion this_file.yaml
+# Check:  perimode check this_file.yaml      (reads everything, runs nothing)
+# All numbers are plain SI: m, kg, s, N, Pa. Every key is described in docs/case_reference.md.
+title: waves on a glass plate
+
+body:
+  dimension: 2                  # 1 bar, 2 plate or slice, 3 solid
+  plane: strain                 # 2D: stress (Poisson's ratio 1/3) | strain (1/4); the theory fixes it
+  thickness: 0.005              # 2D, m   (in 1D: area, m2)
+  particles:
+    grid:                       # waves are those of its endless lattice: the spacing counts, the box does not
+      lower: [0, 0]             # m
+      upper: [0.1, 0.05]
+      spacing: 0.00025          # m
+  horizon: { ratio: 3 }         # in spacings | { length: 7.5e-4 } in m
+
+material:
+  youngs_modulus: 72.0e+9       # Pa
+  density: 2440                 # kg/m3
+  micromodulus: { kernel: constant }   # constant | conical | gaussian (with p) | inverse_distance | shells | fourier
+  calibration: continuum        # continuum | discrete | discrete_cut
+  volume_correction: none       # none | linear | exact (1D); optimise needs none
+  fracture_energy: 135.0        # J/m2
+
+analysis:
+  dispersion:
+    # path: [[0, 0], [1, 0], [1, 1], [0, 0]]   # in pi/spacing; the contour of the irreducible zone without it
+    points: 300                 # along the path
+    # zone: 101                 # points per axis of the zone's survey; writes zone.csv (1D, 2D)
+    # time_step: 2.0e-8         # s; what an integrator makes of the waves
+    # integrator: central_difference    # | newmark
+    phase_error: 0.05           # up to where phase speeds are right to 5 %: bands.csv
+    polar: { wave_number: 0.5, directions: 360 }   # all directions at |k| = 0.5 pi/spacing: polar.csv
+    # spectrum: { run: out/pulse }      # also the ridges of a periodic transient run
+    optimise:                   # coefficients of the orbits that make waves classical: coefficients.csv
+      method: least_squares     # 1D also: point_collocation | subdomain_collocation | galerkin
+      norm: l2                  # l2 | l1
+      domain: contour           # contour | zone
+      lower_bound: none         # of every coefficient; 0: no negative ones
+      # poissons_ratio: theory  # another: long-wave speeds right along the axes alone
+      # weights: [1, 1]         # of the errors of P and S
+      fit: 4                    # cosines of an influence function: influence.yaml
+
+output:
+  directory: out/waves          # dispersion.csv, bands.csv and summary.json
+)";
+}
+
 }  // namespace perimode

@@ -37,7 +37,7 @@ struct Evaluate {
   }
 
   Eigen::VectorXd operator()(const TableField& field) const {
-    const NumberTable table = read_number_table(field.file, std::string("x,y,z").substr(0, 2 * Dim - 1));
+    const NumberTable table = read_number_table(field.file, {std::string("x,y,z").substr(0, 2 * Dim - 1)});
     if (table.rows() != particles.position.size()) {
       invalid_input({fmt::format("{} lines of numbers, one per particle", particles.position.size()),
                      fmt::format("{}", table.rows()),

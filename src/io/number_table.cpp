@@ -29,23 +29,24 @@ std::string content_of(const std::filesystem::path& file) {
 
 }  // namespace
 
-NumberTable read_number_table(const std::filesystem::path& file, const std::string& header) {
+NumberTable read_number_table(const std::filesystem::path& file, const std::vector<std::string>& headers) {
   const std::string content = content_of(file);
   std::string_view text = content;
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  const std::vector<CsvField> names = csv_fields(header);
-  NumberTable table;
-  table.column.resize(names.size());
-
   std::vector<std::string_view> given;
   for (const CsvField& field : csv_fields(next_csv_line(text))) given.push_back(field.text);
   const std::string first = fmt::format("{}", fmt::join(given, ","));
-  if (first != header) {
-    invalid_input({fmt::format("the header {}", header),
+  const auto chosen = std::find(headers.begin(), headers.end(), first);
+  if (chosen == headers.end()) {
+    invalid_input({fmt::format("the header {}", fmt::join(headers, " or ")),
                    fmt::format("'{}'", first.substr(0, 60)),
                    "change the first line",
                    {file.string(), 1, 1}});
   }
+  const std::string& header = *chosen;
+  const std::vector<CsvField> names = csv_fields(header);
+  NumberTable table;
+  table.column.resize(names.size());
   for (int line = 2; !text.empty(); ++line) {
     const std::string_view row = next_csv_line(text);
     if (row.find_first_not_of(" \t") == std::string_view::npos) continue;

@@ -17,9 +17,11 @@ struct NumberTable {
   [[nodiscard]] std::size_t rows() const { return line.size(); }
 };
 
-/// Reads comma-separated numbers under exactly the header given ("time,value"). Windows line ends, a byte
-/// order mark, blanks around fields and empty lines are accepted. Throws invalid_input with file:line:column:
-/// an unreadable file, another header, a wrong number of fields, what is no finite number, no row.
-[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file, const std::string& header);
+/// Reads comma-separated numbers under exactly one of the headers given ("time,value"). Windows line ends, a
+/// byte order mark, blanks around fields and empty lines are accepted. Throws invalid_input with
+/// file:line:column: an unreadable file, another header, a wrong number of fields, what is no finite number,
+/// no row.
+[[nodiscard]] NumberTable read_number_table(const std::filesystem::path& file,
+                                            const std::vector<std::string>& headers);
 
 }  // namespace perimode

@@ -70,10 +70,7 @@ void read_analysis(const Cursor& cursor, InputFiles& files, Case& result) {
   }
   if (const auto transient = analysis.find("transient")) read_transient(*transient, files, result);
   if (const auto quasistatic = analysis.find("quasistatic")) read_quasistatic(*quasistatic, files, result);
-  const auto other = analysis.find("dispersion");
-  if (other && other->node().kind != CaseNode::Kind::map && other->node().kind != CaseNode::Kind::null) {
-    other->complain("a map", "each analysis has its own keys");
-  }
+  if (const auto dispersion = analysis.find("dispersion")) read_dispersion(*dispersion, files, result);
 }
 
 OutputSpec read_output(const Cursor& cursor) {

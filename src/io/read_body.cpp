@@ -53,7 +53,7 @@ CloudSpec read_cloud_file(const Cursor& cursor, InputFiles& files) {
     cursor.complain("a .csv, .msh or .exo file",
                     "give a table x[,y[,z]],volume[,block], a Gmsh mesh or an Exodus mesh");
   }
-  return {files.add(cursor, "cloud.csv"), cursor.where()};
+  return {files.add(cursor, "cloud.csv"), cursor.where(), {}};
 }
 
 HorizonSpec read_horizon(const Cursor& cursor, bool grid) {
@@ -79,12 +79,21 @@ HorizonSpec read_horizon(const Cursor& cursor, bool grid) {
   return horizon;
 }
 
-std::array<bool, 3> read_periodic(const Cursor& cursor, const BodyFacts& facts) {
+std::array<bool, 3> read_periodic(const Cursor& cursor, const Section& particles, const Model& model) {
+  const auto* cloud = std::get_if<CloudSpec>(&model.particles);
   std::array<bool, 3> periodic = {false, false, false};
   for (const Cursor& item : cursor.items("[x]")) {
-    if (!facts.grid) cursor.complain("no periodic axes on a cloud", "periodic images need a grid");
-    const int axis = read_axis(item, facts.dimension);
+    if (cloud != nullptr && cloud->period.empty()) {
+      cursor.complain("no periodic axes on a cloud without a period",
+                      "write particles: { file: cloud.csv, period: [1.0, 0.5] }");
+    }
+    const int axis = read_axis(item, model.dimension);
     if (periodic[axis]) item.complain("every axis once", "remove it");
+    if (cloud != nullptr && !(cloud->period[axis] > 0.0)) {
+      particles.find("period")->complain(
+          fmt::format("a number > 0 along {}, which is periodic", "xyz"[axis]),
+          "give the length in m after which the cloud repeats itself, or remove the axis from body.periodic");
+    }
     periodic[axis] = true;
   }
   return periodic;
@@ -165,15 +174,19 @@ void read_body(const Cursor& cursor, InputFiles& files, Model& model) {
   read_section_size(body, model);
 
   const Section particles(body.need("particles", "{ grid: { lower: [0, 0], upper: [1, 1], spacing: 0.01 } }"),
-                          {"grid", "file"});
+                          {"grid", "file", "period"});
   if (particles.exactly_one({"grid", "file"}) == "grid") {
+    particles.refuse("period", "no `period` on a grid", "its box is the period; remove it");
     model.particles = read_grid(*particles.find("grid"), model.dimension);
   } else {
-    model.particles = read_cloud_file(*particles.find("file"), files);
+    CloudSpec cloud = read_cloud_file(*particles.find("file"), files);
+    if (const auto period = particles.find("period")) cloud.period = period->point(model.dimension);
+    model.particles = std::move(cloud);
   }
   const BodyFacts facts = facts_of(model);
   model.horizon = read_horizon(body.need("horizon", "{ ratio: 3 }"), facts.grid);
-  if (const auto periodic = body.find("periodic")) model.periodic = read_periodic(*periodic, facts);
+  if (const auto periodic = body.find("periodic"))
+    model.periodic = read_periodic(*periodic, particles, model);
   if (const auto cracks = body.find("precracks")) {
     for (const Cursor& item : cracks->items("[ { from: [0, 0.5], to: [0.2, 0.5] } ]")) {
       model.precracks.push_back(read_precrack(item, model.dimension));

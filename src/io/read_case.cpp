@@ -38,7 +38,7 @@ Case read_case_text(std::string_view text, const std::filesystem::path& file,
   InputFiles files{file.parent_path()};
   read_body(root.need("body", "{ dimension: 2, ... }"), files, result.model);
   read_materials(root.need("material", "{ youngs_modulus: 210.0e+9, density: 7850 }"), root.find("materials"),
-                 result.model);
+                 files, result.model);
   check_horizon(result.model);
   if (const auto boundary = root.find("boundary")) read_boundary(*boundary, files, result.model);
   if (const auto kinematics = root.find("kinematics")) {

@@ -10,29 +10,6 @@ namespace perimode::case_file {
 
 namespace {
 
-Micromodulus read_micromodulus(const Cursor& cursor, Micromodulus result) {
-  const Section section(cursor, {"kernel", "p", "a0", "a", "w", "file", "alpha"});
-  if (const auto kernel = section.find("kernel")) {
-    if (kernel->node().text == "fourier" || kernel->node().text == "shells") {
-      kernel->complain("a kernel of this version (constant, conical, gaussian, inverse_distance)",
-                       "choose one of them");
-    }
-    result.kernel = kernel->choice<Kernel>({{"constant", Kernel::constant},
-                                            {"conical", Kernel::conical},
-                                            {"gaussian", Kernel::gaussian},
-                                            {"inverse_distance", Kernel::inverse_distance}});
-  }
-  if (result.kernel != Kernel::gaussian) {
-    section.refuse("p", "`p` with the kernel gaussian only", "remove it, or write kernel: gaussian");
-  }
-  for (const char* key : {"a0", "a", "w", "file", "alpha"}) {
-    section.refuse(key, "a parameter of this version's kernels (p of gaussian)",
-                   "it belongs to the kernels fourier and shells, which this version does not have");
-  }
-  if (const auto p = section.find("p")) result.p = p->number({"", "2"});
-  return result;
-}
-
 /// nu is checked to the three decimals 1/3 is usually written with.
 void check_poissons_ratio(const Section& section, const Model& model) {
   const auto given = section.find("poissons_ratio");
@@ -52,14 +29,15 @@ void check_poissons_ratio(const Section& section, const Model& model) {
 }
 
 /// Replaces in `result` what the section gives.
-void read_constants(const Section& section, const Model& model, Material& result) {
+void read_constants(const Section& section, const Model& model, InputFiles& files, Material& result) {
   result.where = section.where();
   check_poissons_ratio(section, model);
   if (const auto e = section.find("youngs_modulus")) result.youngs_modulus = e->number({"Pa", "210.0e+9"});
   if (const auto rho = section.find("density")) result.density = rho->number({"kg/m3", "7850"});
   if (const auto kernel = section.find("micromodulus")) {
-    result.micromodulus = read_micromodulus(*kernel, result.micromodulus);
+    result.micromodulus = read_micromodulus(*kernel, model, files, result.micromodulus);
   }
+  if (const auto negative = section.find("break_negative")) result.break_negative = negative->boolean();
   const std::string_view strength = section.at_most_one({"fracture_energy", "critical_stretch"});
   if (strength.empty()) return;
   result.fracture_energy.reset();
@@ -100,31 +78,60 @@ void check_self_cell(const Section& section, const Model& model) {
   }
 }
 
+const char* lattice_kernel_of(const Micromodulus& micromodulus) {
+  if (!is_lattice_kernel(micromodulus.kernel)) return nullptr;
+  return micromodulus.kernel == Kernel::fourier ? "fourier" : "shells";
+}
+
+/// Tables of a lattice are what they were made to be with the continuum's constant and whole cells alone.
+void check_lattice_kernels(const Section& section, const Model& model) {
+  const char* kernel = lattice_kernel_of(model.material.micromodulus);
+  std::string whose;
+  for (const auto& [name, material] : model.block_materials) {
+    if (kernel != nullptr) break;
+    kernel = lattice_kernel_of(material.micromodulus);
+    whose = fmt::format(" of the block {}", name);
+  }
+  if (kernel == nullptr) return;
+  const std::string with = fmt::format(" with the kernel {}{}", kernel, whose);
+  if (model.volume_correction != VolumeCorrection::none) {
+    section.find("volume_correction")
+        ->complain("none" + with, "its numbers are multipliers of whole cells: leave the key out");
+  }
+  if (model.calibration != Calibration::continuum) {
+    section.find("calibration")
+        ->complain("continuum" + with,
+                   "scaling its numbers would undo what they were made for: leave the key out");
+  }
+}
+
 }  // namespace
 
-void read_materials(const Cursor& material, const std::optional<Cursor>& overrides, Model& model) {
+void read_materials(const Cursor& material, const std::optional<Cursor>& overrides, InputFiles& files,
+                    Model& model) {
   const Section section(
       material, {"youngs_modulus", "density", "micromodulus", "calibration", "volume_correction", "self_cell",
-                 "fracture_energy", "critical_stretch", "poissons_ratio"});
+                 "fracture_energy", "critical_stretch", "break_negative", "poissons_ratio"});
   (void)section.need("youngs_modulus", "210.0e+9");
   (void)section.need("density", "7850");
-  read_constants(section, model, model.material);
   read_body_wide(section, model);
+  read_constants(section, model, files, model.material);
   if (overrides) {
     for (const Cursor& entry : overrides->entries("{ inclusion: { density: 2700 } }")) {
-      const Section block(entry,
-                          {"youngs_modulus", "density", "micromodulus", "fracture_energy", "critical_stretch",
-                           "poissons_ratio", "calibration", "volume_correction", "self_cell"});
+      const Section block(
+          entry, {"youngs_modulus", "density", "micromodulus", "fracture_energy", "critical_stretch",
+                  "break_negative", "poissons_ratio", "calibration", "volume_correction", "self_cell"});
       for (const char* key : {"calibration", "volume_correction", "self_cell"}) {
         block.refuse(key, fmt::format("{} in `material`", key), "it holds for the whole body");
       }
       Material merged = model.material;
-      read_constants(block, model, merged);
+      read_constants(block, model, files, merged);
       merged.where = entry.node().key_where;
       model.block_materials.emplace(entry.node().key, merged);
     }
   }
   check_self_cell(section, model);
+  check_lattice_kernels(section, model);
 }
 
 }  // namespace perimode::case_file

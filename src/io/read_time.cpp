@@ -12,7 +12,7 @@ using Kind = TimeFunction::Kind;
 
 TimeFunction read_time_table(const Cursor& cursor, InputFiles& files) {
   const std::filesystem::path file = files.add(cursor, "force.csv");
-  NumberTable table = read_number_table(file, "time,value");
+  NumberTable table = read_number_table(file, {"time,value"});
   const std::vector<double>& time = table.column[0];
   for (std::size_t k = 1; k < time.size(); ++k) {
     if (time[k] > time[k - 1]) continue;

@@ -25,13 +25,17 @@ double negative_shift(const EigenProblem& problem, const EigenOptions& options) 
 namespace {
 
 /// Factors K - sigma M positive definite and says with which sigma; singular K falls back to a
-/// negative shift.
+/// negative shift, indefinite K to one below its spectrum where options.top says how far that may reach.
 double factor_definite(CholeskyFactor& factor, const EigenProblem& problem, const EigenOptions& options) {
   const bool free = problem.known != nullptr && problem.known->cols() > 0;
   double sigma = free || !std::isnan(options.negative_shift) ? negative_shift(problem, options) : 0.0;
   if (factor.factorize(*problem.stiffness, sigma, *problem.mass) == FactorStatus::done) return sigma;
   sigma = std::min(sigma, 0.0) == 0.0 ? negative_shift(problem, options) : 100.0 * sigma;
   if (factor.factorize(*problem.stiffness, sigma, *problem.mass) == FactorStatus::done) return sigma;
+  while (sigma > -options.top) {
+    sigma = std::max(100.0 * sigma, -1.01 * options.top);
+    if (factor.factorize(*problem.stiffness, sigma, *problem.mass) == FactorStatus::done) return sigma;
+  }
   throw Error(ErrorKind::solver_failure, "the stiffness is not positive semidefinite: K - (" +
                                              std::to_string(sigma) + ") M has no Cholesky factor");
 }

@@ -156,7 +156,7 @@ Eigen::MatrixXd motions_of(const Body<Dim>& body, const Eigen::MatrixXd& modes) 
 /// mechanism is round-off of, wherever it moves.
 template <int Dim>
 Eigen::VectorXd energy_apart(const Body<Dim>& body, const Eigen::MatrixXd& motion) {
-  const std::vector<double> blocks = diagonal_blocks(body);
+  const std::vector<double> blocks = absolute_blocks(body);
   Eigen::VectorXd energy = Eigen::VectorXd::Zero(motion.cols());
   for (Index i = 0; i < body.count(); ++i) {
     using Block = Eigen::Matrix<double, Dim, Dim, Eigen::RowMajor>;
@@ -178,6 +178,7 @@ void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, 
     pairs.vector[k] = {};
     if (result.left.cols() == 0) fix_sign(result.shape.col(k));
   }
+  result.unstable = static_cast<int>((result.eigenvalue.array() < 0.0).count());
   result.angular_frequency = result.eigenvalue.array().max(0.0).sqrt();
   result.frequency_hz = result.angular_frequency / (2.0 * std::numbers::pi);
   result.rigid_modes = static_cast<int>(std::count(result.kind.begin(), result.kind.end(), ModeKind::rigid)) -
@@ -198,6 +199,16 @@ void finish(ModalResult& result, const Body<Dim>& body, const Problem& problem, 
             ? kx.col(k).norm() / (k_norm * result.shape.col(k).norm())
             : (kx.col(k) - result.eigenvalue[k] * mx).norm() / (std::abs(result.eigenvalue[k]) * mx.norm());
   }
+}
+
+void warn_of_unstable(const ModalResult& result, const Sink& sink) {
+  if (result.unstable == 0) return;
+  sink.warn(fmt::format(
+      "{} mode{} of negative eigenvalue, the lowest {:.6g} (rad/s)^2: the body is unstable, and {} growing "
+      "motion{} stand{} with frequency 0; bonds of negative stiffness need a periodic body or whole families",
+      result.unstable, result.unstable == 1 ? "" : "s", result.eigenvalue.minCoeff(),
+      result.unstable == 1 ? "a" : "these", result.unstable == 1 ? "" : "s",
+      result.unstable == 1 ? "s" : ""));
 }
 
 template <int Dim>
@@ -246,11 +257,13 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
     const Eigen::MatrixXd motion = motions_of(body, r.vector);
     const Eigen::VectorXd energy = bond_energy(body, motion);
     const Eigen::VectorXd apart = energy_apart(body, motion);
+    const bool negative_bonds = softening(body);
     for (Eigen::Index k = 0; k < r.value.size(); ++k) {
       const Eigen::VectorXd x = r.vector.col(k);
       const double norm2 = x.dot(problem.mass.cwiseProduct(x));
       const double value = 2.0 * energy[k] / norm2;
-      const bool zero = energy[k] <= 1e-14 * apart[k];
+      const double round_off = 1e-14 * apart[k];
+      const bool zero = energy[k] <= round_off && (!negative_bonds || energy[k] >= -round_off);
       if (zero) ++result.mechanisms;
       pairs.value.push_back(zero ? 0.0 : value);
       pairs.vector.emplace_back(x / std::sqrt(norm2));
@@ -259,6 +272,7 @@ void solve_symmetric_body(ModalResult& result, const Body<Dim>& body, const Prob
   }
   sort_and_trim(pairs, options);
   finish(result, body, problem, std::move(pairs));
+  warn_of_unstable(result, sink);
   if (result.mechanisms > 0) {
     sink.warn(fmt::format(
         "{} zero-energy mode{} that {} no rigid motion: the bonds do not hold the body together (a "
@@ -310,6 +324,7 @@ void solve_unsymmetric_body(ModalResult& result, const Body<Dim>& body, const Pr
   result.left.resize(problem.mass.size(), static_cast<Eigen::Index>(left.size()));
   for (std::size_t k = 0; k < left.size(); ++k) result.left.col(static_cast<Eigen::Index>(k)) = left[k];
   finish(result, body, problem, std::move(pairs));
+  if (softening(body)) warn_of_unstable(result, sink);
 }
 
 }  // namespace

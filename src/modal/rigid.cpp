@@ -37,7 +37,7 @@ std::vector<double> own_stiffness(const Body<Dim>& body) {
   for (Index i = 0; i < body.count(); ++i) {
     double sum = 0.0;
     for_each_bond(body.bonds, i, Which::alive,
-                  [&](const BondEnd<Dim>& end) { sum += bond_stiffness(body, i, end); });
+                  [&](const BondEnd<Dim>& end) { sum += std::abs(bond_stiffness(body, i, end)); });
     for (int a = 0; a < Dim; ++a) {
       const Index d = body.boundary.free_number[static_cast<std::size_t>(i) * Dim + a];
       if (d >= 0 && sum > 0.0) own[static_cast<std::size_t>(d)] = sum;

@@ -19,7 +19,17 @@ namespace perimode {
 
 namespace {
 
-[[noreturn]] void mechanism() {
+template <int Dim>
+[[noreturn]] void mechanism(const Body<Dim>& body) {
+  if (softening(body)) {
+    invalid_input(
+        {"a body that resists every motion",
+         "one that some motions take energy from, or cost none: bonds of negative stiffness outweigh "
+         "the others where families lack bonds",
+         "take a micromodulus with smaller negative parts or none, or periodic axes or walls instead "
+         "of free surfaces",
+         {}});
+  }
   invalid_input({"a body whose bonds hold its shape",
                  "a motion that is not rigid and stretches no bond",
                  "use a longer horizon (2 spacings or more), or fix the particles that hang by too few bonds",
@@ -48,7 +58,7 @@ Solution solve_cholesky(const Body<Dim>& body, const StaticProblem& problem, Sta
   CholeskyFactor factor =
       CholeskyFactor::with_order(k, dissection_order(k, dofs.particle, particle_positions(body)));
   sink.report("factoring");
-  if (factor.factorize(k, 0.0, Eigen::VectorXd::Zero(k.rows)) != FactorStatus::done) mechanism();
+  if (factor.factorize(k, 0.0, Eigen::VectorXd::Zero(k.rows)) != FactorStatus::done) mechanism(body);
   result.factor_nonzeros = factor.fill().nonzeros;
   result.seconds_setup = seconds_since(start);
   sink.report("solving");
@@ -76,7 +86,7 @@ Solution solve_lu(const Body<Dim>& body, const StaticProblem& problem, StaticRes
     result.seconds_solve = seconds_since(solving);
     return solution;
   } catch (const Error& error) {
-    if (error.kind() == ErrorKind::solver_failure) mechanism();
+    if (error.kind() == ErrorKind::solver_failure) mechanism(body);
     throw;
   }
 }
@@ -88,7 +98,7 @@ Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, 
   sink.report("preconditioner");
   const LinearOperator preconditioner =
       solver == StaticSolver::multigrid ? multigrid(body, problem.stiffness).preconditioner
-                                        : block_jacobi(diagonal_blocks(body), Dim, body.boundary.free_number);
+                                        : block_jacobi(absolute_blocks(body), Dim, body.boundary.free_number);
   result.seconds_setup = seconds_since(start);
   sink.report("iterating");
   CgOptions options;
@@ -100,7 +110,7 @@ Solution solve_iteratively(const Body<Dim>& body, const StaticProblem& problem, 
   // round-off.
   constexpr double useless = 1e-3;
   const bool grown = !(rounding_residual(problem, cg.x) <= useless);
-  if (!cg.converged && (cg.singular || grown) && !(cg.residual <= useless)) mechanism();
+  if (!cg.converged && (cg.singular || grown) && !(cg.residual <= useless)) mechanism(body);
   result.iterations = cg.iterations;
   result.seconds_solve = cg.seconds;
   return {std::move(cg.x), cg.converged, std::move(cg.message)};

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "studies/common/release.hpp"
@@ -35,17 +34,12 @@ const std::vector<EndsKind>& ends_kinds() {
 }
 
 std::string name_of(const BarRun& run) {
-  const std::string kernel =
-      run.kernel.kernel == Kernel::constant ? "constant" : fmt::format("gaussian{:g}", run.kernel.p);
-  constexpr std::array<const char*, 3> rules = {"corrected", "uncorrected", "normalised"};
-  return fmt::format("{} {} {}", kernel, rules[static_cast<std::size_t>(run.rule)], run.ends.name);
+  return fmt::format("{} {} {}", name_of(run.kernel), name_of(run.rule), run.ends.name);
 }
 
 void run_bar(const BarRun& run, Results& results, Table* histories) {
-  const Model model =
-      steel_bar(run.cells, run.ratio, run.kernel,
-                run.rule == Rule::uncorrected ? VolumeCorrection::none : VolumeCorrection::linear,
-                run.rule == Rule::normalised ? Calibration::discrete : Calibration::continuum, run.ends.ends);
+  const Model model = steel_bar(run.cells, run.ratio, run.kernel, correction_of(run.rule),
+                                calibration_of(run.rule), run.ends.ends);
   Body<1> bar = build_body<1>(model);
   const Eigen::VectorXd u0 = along_x(bar, [](double x) { return unit_strain * x; });
   const double end = std::ceil(run.periods * period / sampling) * sampling;

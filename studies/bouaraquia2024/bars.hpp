@@ -6,6 +6,7 @@
 
 #include "perimode/assembly/model.hpp"
 #include "perimode/io/table.hpp"
+#include "rules.hpp"
 #include "studies/common/models.hpp"
 #include "studies/common/results.hpp"
 
@@ -20,10 +21,6 @@ struct EndsKind {
   BarEnds ends;
 };
 [[nodiscard]] const std::vector<EndsKind>& ends_kinds();
-
-/// How the sum over the family is made: linear volume correction (the paper's eq. (36)), the whole cell of
-/// every bond, or linear with the constant scaled so that the discrete family is exact for a uniform strain.
-enum class Rule { corrected, uncorrected, normalised };
 
 /// One bar of the study.
 struct BarRun {

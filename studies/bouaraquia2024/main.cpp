@@ -20,9 +20,6 @@ using perimode::Kernel;
 using perimode::Micromodulus;
 using perimode::Table;
 
-const Micromodulus constant{Kernel::constant, 0.0};
-Micromodulus gaussian(double p) { return {Kernel::gaussian, p}; }
-
 std::vector<BarRun> coarse_runs() {
   const EndsKind walls = ends_kinds().front();
   std::vector<BarRun> runs;

@@ -51,7 +51,7 @@ std::vector<StandingWave> scabbia_series(const DispersionRelation& omega) {
   return released_pulse(1.0, 0.02, 0.5, 0.1, 79, omega);
 }
 
-Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wall) {
+Model separable_plate(int cells, double ratio, const Micromodulus& kernel, WallType wall) {
   Model model;
   model.dimension = 2;
   GridSpec grid;
@@ -69,7 +69,7 @@ Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wal
   return model;
 }
 
-Model steel_bar(int cells, int ratio, Micromodulus kernel, VolumeCorrection correction,
+Model steel_bar(int cells, int ratio, const Micromodulus& kernel, VolumeCorrection correction,
                 Calibration calibration, const BarEnds& ends) {
   Model model = separable_bar(static_cast<double>(ratio) / cells, ratio, ends);
   std::get<GridSpec>(model.particles).spacing = 1.0 / cells;

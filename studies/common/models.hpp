@@ -27,11 +27,11 @@ using BarEnds = std::pair<std::optional<WallType>, std::optional<WallType>>;
 
 /// Plate 1 m x 0.5 m in plane stress with E = rho = 1 and the same wall (mirror or antimirror) on its four
 /// edges, linear volume correction; `cells` along x, an even number.
-[[nodiscard]] Model separable_plate(int cells, double ratio, Micromodulus kernel, WallType wall);
+[[nodiscard]] Model separable_plate(int cells, double ratio, const Micromodulus& kernel, WallType wall);
 
 /// The bar of [bouaraquia2024] fig. 12: 1 m, 1 mm2, steel of E = 200 GPa and rho = 7850 kg/m3, odd wall at
 /// x = 0 (or what `ends` say), even wall at x = 1.
-[[nodiscard]] Model steel_bar(int cells, int ratio, Micromodulus kernel, VolumeCorrection correction,
+[[nodiscard]] Model steel_bar(int cells, int ratio, const Micromodulus& kernel, VolumeCorrection correction,
                               Calibration calibration, const BarEnds& ends = {WallType::odd, WallType::even});
 
 /// The solid of [ganzenmueller2013]: bulk modulus 1 (E = 3/2, nu = 1/4), rho = 1, bonds of energy density

@@ -93,7 +93,7 @@ struct Cracked {
                               crossing.begin() + static_cast<std::ptrdiff_t>(end)});
   }
   [[nodiscard]] perimode::SparseColumns columns(std::size_t first, std::size_t count) const {
-    return bond_columns(body, bonds(first, count));
+    return bond_columns(body, bonds(first, count)).positive;
   }
   [[nodiscard]] perimode::SparseColumns none() const {
     perimode::SparseColumns out;
@@ -201,7 +201,7 @@ void event(benchmark::State& state) {
     fresh = solver.fresh_residual();
     for (std::size_t e = 0; e < events; ++e) {
       const auto bonds = c.bonds(e * event_bonds, event_bonds);
-      const perimode::SparseColumns lost = bond_columns(body, bonds);
+      const perimode::SparseColumns lost = bond_columns(body, bonds).positive;
       stiffness.break_bonds(bonds);
       double begin = cpu_seconds();
       solver.change(c.none(), lost);

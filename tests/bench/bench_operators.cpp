@@ -105,6 +105,28 @@ void blocks(benchmark::State& state) {
   product<Dim>(state, StiffnessForm::blocks, cube<Dim>(static_cast<int>(state.range(0))), false);
 }
 
+/// The same bodies with every other bond negative, against those without, by turns: `x positive` is the speed
+/// of the signed kernels over that of the others.
+template <int Dim>
+void negative(benchmark::State& state, StiffnessForm form) {
+  const auto body = build_body<Dim>(cube<Dim>(static_cast<int>(state.range(0))));
+  auto mixed = body;
+  const int size = body.constants.family_size;
+  for (int k = 0; k < size; k += 2) {
+    const auto at = static_cast<std::size_t>(std::min(k, size - 1 - k));
+    mixed.constants.kernel[at] = mixed.constants.kernel[static_cast<std::size_t>(size) - 1 - at] =
+        -body.constants.kernel[at];
+  }
+  const auto positive = stiffness_operator(body, form), signs = stiffness_operator(mixed, form);
+  double best = 1e30, plain = 1e30;
+  for (auto _ : state) {
+    best = std::min(best, time_of<Dim>(signs, 1));
+    plain = std::min(plain, time_of<Dim>(positive, 1));
+  }
+  state.counters["ns/bond"] = 1e9 * best / static_cast<double>(count_bonds(body.bonds, body.count()));
+  state.counters["x positive"] = plain / best;
+}
+
 /// Every particle's bonds tested one by one: calibration factors all over.
 template <int Dim>
 void partial(benchmark::State& state) {
@@ -166,6 +188,16 @@ BENCHMARK(calibrated<2>)->Name("stencil_discrete/2D")->Arg(200)->Unit(benchmark:
 BENCHMARK(calibrated<3>)->Name("stencil_discrete/3D")->Arg(47)->Unit(benchmark::kMillisecond);
 BENCHMARK(partial<2>)->Name("stencil_partial/2D")->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(partial<3>)->Name("stencil_partial/3D")->Arg(47)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(negative<2>, stencil, StiffnessForm::stencil)
+    ->Name("stencil_negative/2D")
+    ->Arg(200)
+    ->Arg(1000);
+BENCHMARK_CAPTURE(negative<3>, stencil, StiffnessForm::stencil)
+    ->Name("stencil_negative/3D")
+    ->Arg(47)
+    ->Arg(100);
+BENCHMARK_CAPTURE(negative<2>, bonds, StiffnessForm::bonds)->Name("bonds_negative/2D")->Arg(200);
+BENCHMARK_CAPTURE(negative<3>, bonds, StiffnessForm::bonds)->Name("bonds_negative/3D")->Arg(47);
 BENCHMARK(bonds<2>)->Name("bonds/2D")->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(bonds<3>)->Name("bonds/3D")->Arg(30)->Arg(47)->Unit(benchmark::kMillisecond);
 BENCHMARK(blocks<2>)->Name("blocks/2D")->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);

@@ -107,7 +107,7 @@ class Commands(ProgramTest):
 
     def test_help_has_examples(self):
         for arguments in (["--help"], ["modal", "--help"], ["check", "--help"], ["new", "--help"],
-                          ["new", "modal", "--help"], ["new", "transient", "--help"]):
+                          ["new", "modal", "--help"], ["new", "transient", "--help"], ["dispersion", "--help"]):
             with self.subTest(" ".join(arguments)):
                 run = self.good(*arguments)
                 self.assertEqual(run.stderr, "")

@@ -189,6 +189,38 @@ TEST_F(CloudOfAGrid, HasItsModesInOneAndThreeDimensions) {
   expect_same<3>(block, cloud_of<3>(block), 40, 1e-10);
 }
 
+/// The cloud of a grid repeats itself where the grid does, after the length of its box.
+void make_periodic(Model& grid, Model& cloud, const std::array<bool, 3>& axes) {
+  const auto& box = std::get<GridSpec>(grid.particles);
+  grid.periodic = cloud.periodic = axes;
+  auto& period = std::get<CloudSpec>(cloud.particles).period;
+  for (std::size_t a = 0; a < box.upper.size(); ++a) period.push_back(box.upper[a] - box.lower[a]);
+}
+
+TEST_F(CloudOfAGrid, HasItsModesWherePeriodic) {
+  Model bar = box_model({40}, 0.01, 3.0);
+  bar.volume_correction = VolumeCorrection::linear;
+  Model cloud = cloud_of<1>(bar);
+  make_periodic(bar, cloud, {true, false, false});
+  expect_same<1>(bar, cloud, 40, 1e-9);
+  for (const bool both : {false, true}) {
+    Model plate = box_model({14, 9}, 0.1, 3.0);
+    plate.blocks.push_back({"core", Region{BallRegion{{1.3, 0.4}, 0.25}, {}}});
+    plate.block_materials["core"] = plate.material;
+    plate.block_materials["core"].youngs_modulus = 5.0;
+    plate.block_materials["core"].density = 3.0;
+    plate.calibration = Calibration::discrete_cut;
+    test::add_crack(plate, {{1.2, 0.25}, {1.75, 0.42}});
+    cloud = cloud_of<2>(plate);
+    make_periodic(plate, cloud, {true, both, false});
+    expect_same<2>(plate, cloud, 40, 1e-10);
+  }
+  Model block = box_model({6, 5, 5}, 0.1, 2.0);
+  cloud = cloud_of<3>(block);
+  make_periodic(block, cloud, {true, true, true});
+  expect_same<3>(block, cloud, 40, 1e-10);
+}
+
 // No angle is special: the distances of the lattice, and with them the ties at the horizon, stay.
 TEST_F(CloudOfAGrid, KeepsItsFrequenciesWhenItIsTurned) {
   for (double angle : {0.1, 0.7, 2.9}) {

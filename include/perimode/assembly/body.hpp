@@ -14,7 +14,8 @@
 namespace perimode {
 
 /// Micromoduli of a body's bonds. A bond of i and j has the constant
-///   c = (f_i c_i(r) + f_j c_j(r)) / 2 in one block, the harmonic mean of the two between blocks,
+///   c = (f_i c_i(r) + f_j c_j(r)) / 2 in one block, the harmonic mean of the two between blocks (0 where one
+/// is 0; opposite signs have none),
 /// with f the calibration factors; it is the same to the last bit seen from both ends.
 struct BondConstants {
   /// Grids: c(|xi|) per block and family member (block-major), N/m6.
@@ -41,13 +42,20 @@ struct Body {
 };
 
 /// Builds the body a model describes: particles, bonds, pre-cracks, calibration, boundary map.
-/// Throws invalid_input, pointing at the place in the case, for anything that makes no body.
+/// Throws invalid_input, pointing at the place in the case, for anything that makes no body, such as a bond
+/// between blocks whose micromoduli there have opposite signs, or what require_lattice_kernel_fits refuses.
 /// Cost O(particles * family).
 template <int Dim>
 [[nodiscard]] Body<Dim> build_body(const Model& model, const Sink& sink = {});
 
-/// Kernels that multiply the bonds of a lattice (fourier, shells) need a grid, volume_correction none and
-/// calibration continuum: throws invalid_input at the material that has one without.
+/// Whether some bond has a negative micromodulus: only then can a symmetric K have a negative eigenvalue.
+/// Cost O(blocks * family) on a grid, O(bond ends) on a cloud.
+template <int Dim>
+[[nodiscard]] bool softening(const Body<Dim>& body);
+
+/// Throws invalid_input, at the material's place, where a material's kernel belongs to a lattice (fourier,
+/// shells) and the model's body is a cloud, or has a volume correction, a self cell, or a calibration other
+/// than continuum: its table is taken as it is.
 void require_lattice_kernel_fits(const Model& model);
 
 /// What a body would hold, from the model alone.

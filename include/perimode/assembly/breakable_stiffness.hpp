@@ -32,12 +32,18 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<BondRef> with_images(const Body<Dim>& body, std::vector<BondRef> bonds);
 
-/// The low-rank term of bonds in R K T over the free dofs, sum_b c_b c_b^T, c_b = sqrt(k_b) [n; -n]: what K
-/// loses when they break. A bond and its image (with_images) make one column, n of the one end and the
-/// ghost's own of the other; bonds between dofs that are not free make none. Symmetric boundaries only.
-/// `bonds` as with_images returns them. Cost O(bonds). Throws invalid_input where k_b < 0.
+/// The low-rank term of bonds in R K T over the free dofs by the sign of k_b: when they break, K loses
+/// sum c c^T over `positive` and gains it over `negative`.
+struct BondColumns {
+  SparseColumns positive, negative;
+  [[nodiscard]] Index count() const { return positive.count() + negative.count(); }
+};
+
+/// sum_b +-c_b c_b^T, c_b = sqrt|k_b| [n; -n]. A bond and its image (with_images) make one column, n of the
+/// one end and the ghost's own of the other; bonds between dofs that are not free make none. Symmetric
+/// boundaries only. `bonds` as with_images returns them. Cost O(bonds).
 template <int Dim>
-[[nodiscard]] SparseColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds);
+[[nodiscard]] BondColumns bond_columns(const Body<Dim>& body, std::span<const BondRef> bonds);
 
 /// K of a body whose bonds break, in one of its forms, which follows in place: the stencil by alive bits and
 /// the runs of the particles concerned, the bond form by closing up their ends, blocks by summing their rows

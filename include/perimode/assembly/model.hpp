@@ -30,6 +30,7 @@ struct GridSpec {
 struct CloudSpec {
   std::filesystem::path file;
   Where where = {};
+  std::vector<double> period = {};  ///< per axis, m, of the axes in Model::periodic; others are of no meaning
 };
 
 /// How far bonds reach: delta = value * spacing (ratio, grids only), delta = value (length, m),

@@ -12,10 +12,12 @@ namespace perimode {
 /// The same body on a grid of twice the spacing, for the coarse levels of multigrid
 /// (docs/theory/08_iterative.md): ceil(n/2) cells per axis from the same corner, a particle where one of the
 /// up to 2^Dim children is, in the block of most of them. The family keeps its offsets; c is scaled by
-/// 2^(-1-Dim), so that k_b = c beta V^2 / |xi| grows by 2^(Dim-2) and elastic moduli stay. A coarse bond is
-/// alive where at least half of the chains of two fine bonds it stands for are; the calibration factor,
-/// within [1/5, 5], gives a family the mean dilation energy of its children's. A dof is fixed where a child's
-/// is; ghosts are reflected as the fine ones. Throws invalid_input for clouds. Cost O(bond ends).
+/// 2^(-1-Dim), so that k_b = c beta V^2 / |xi| grows by 2^(Dim-2) and elastic moduli stay (micromoduli with
+/// negative parts are replaced by a constant of the same energy of dilation, so that coarse levels are
+/// definite). A coarse bond is alive where at least half of the chains of two fine bonds it stands for are;
+/// the calibration factor, within [1/5, 5], gives a family the mean dilation energy of its children's. A dof
+/// is fixed where a child's is; ghosts are reflected as the fine ones. Throws invalid_input for clouds. Cost
+/// O(bond ends).
 template <int Dim>
 [[nodiscard]] Body<Dim> coarsen(const Body<Dim>& body);
 

@@ -12,7 +12,7 @@
 namespace perimode {
 
 /// The three forms of K. stencil: nothing is stored but the body's own alive bits (grids). bonds: one vector
-/// sqrt(k_b) n per bond end (any body). blocks: blocked compressed rows (any body). automatic: stencil on
+/// sqrt|k_b| n per bond end (any body). blocks: blocked compressed rows (any body). automatic: stencil on
 /// grids, bonds on clouds.
 enum class StiffnessForm { automatic, stencil, bonds, blocks };
 
@@ -50,6 +50,11 @@ template <int Dim>
 /// included. Cost O(bond ends).
 template <int Dim>
 [[nodiscard]] std::vector<double> diagonal_blocks(const Body<Dim>& body);
+
+/// diagonal_blocks with |k_b| in place of k_b, D: x^T K x <= 2 x^T D x whatever the signs of the bonds, so D
+/// is what smoothers and preconditioners scale by. The same numbers where no k_b is negative.
+template <int Dim>
+[[nodiscard]] std::vector<double> absolute_blocks(const Body<Dim>& body);
 
 /// Largest absolute row sum of R K T over free rows and columns, N/m: bounds |lambda| of K (Gershgorin).
 /// Equals norm_inf of the assembled matrix to round-off where every free row meets a column at most once, and

@@ -45,10 +45,12 @@ struct GridBonds {
   std::vector<std::uint64_t> alive;  ///< particles * words
 };
 
-/// Bonds of a cloud: both ends of every bond, sorted by particle and neighbour.
+/// Bonds of a cloud: both ends of every bond, sorted by particle and neighbour. Two particles have one bond
+/// at most; through a periodic face it ends at the particle whose image it meets, and xi leads to the image.
 template <int Dim>
 struct CloudBonds {
-  std::vector<Offset> start;  ///< particles + 1
+  Point<Dim> period = Point<Dim>::Zero();  ///< m per axis; 0: not periodic
+  std::vector<Offset> start;               ///< particles + 1
   std::vector<Index> neighbour;
   std::vector<Point<Dim>> xi;        ///< m
   std::vector<double> weight;        ///< beta
@@ -116,20 +118,26 @@ template <int Dim>
 [[nodiscard]] GridBonds<Dim> make_grid_bonds(const Particles<Dim>& particles, Family<Dim> family,
                                              const std::array<Beyond, 2 * Dim>& beyond);
 
-/// Horizon of every particle of a cloud: one length, or the distance to the n-th nearest other particle.
+/// Distance to the n-th nearest other particle, m, for every particle of a cloud. Along axes with a `period`
+/// > 0 (m) images count: exact as long as the distance is below half the period, and never below it where the
+/// true one is not, so that make_cloud_bonds refuses it.
 template <int Dim>
-[[nodiscard]] std::vector<double> cloud_horizons(const Particles<Dim>& particles, int neighbours);
+[[nodiscard]] std::vector<double> cloud_horizons(const Particles<Dim>& particles, int neighbours,
+                                                 const Point<Dim>& period = Point<Dim>::Zero());
 
 /// Bonds of a cloud: i and j are bonded if |xi| <= max(delta_i, delta_j) (1 + 1e-9); the pair's
 /// horizon is the mean. `linear` extends by half the pair's mean cell size (volume/section)^(1/Dim)
-/// and weights as on a grid. Cost O(n log n + bonds).
+/// and weights as on a grid. Along axes with a `period` > 0 (m) the cloud repeats itself; the particles lie
+/// within one period. Throws invalid_input where a period is not above twice the longest reach, since a pair
+/// could then have two bonds. Cost O(n log n + bonds).
 template <int Dim>
 [[nodiscard]] CloudBonds<Dim> make_cloud_bonds(const Particles<Dim>& particles,
                                                const std::vector<double>& horizon,
-                                               VolumeCorrection correction, double section);
+                                               VolumeCorrection correction, double section,
+                                               const Point<Dim>& period = Point<Dim>::Zero());
 
-/// Cuts every bond that crosses one of the cracks; those of a grid are repeated in its walls and
-/// periodic images first. Returns the number of bonds cut (a bond counts once). `spacing` scales the
+/// Cuts every bond that crosses one of the cracks; they are repeated in a grid's walls and in periodic
+/// images first. Returns the number of bonds cut (a bond counts once). `spacing` scales the
 /// tolerance 1e-9.
 template <int Dim>
 Offset cut_bonds(Bonds<Dim>& bonds, const Particles<Dim>& particles, const std::vector<Crack<Dim>>& cracks,

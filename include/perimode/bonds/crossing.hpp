@@ -13,8 +13,8 @@ struct CrossingEnd {
   Offset slot = 0;
 };
 
-/// Ends of alive bonds that cross one of the cracks, by particle and slot; cracks of a grid are repeated in
-/// its walls and periodic images first. What is marked as joined stays so, coinciding ends join. `spacing`
+/// Ends of alive bonds that cross one of the cracks, by particle and slot; cracks are repeated in a grid's
+/// walls and in periodic images first. What is marked as joined stays so, coinciding ends join. `spacing`
 /// scales the tolerance 1e-9. Cost O(particles + bonds near the cracks).
 template <int Dim>
 [[nodiscard]] std::vector<CrossingEnd> crossing_ends(const Bonds<Dim>& bonds, const Particles<Dim>& particles,

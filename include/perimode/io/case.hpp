@@ -11,6 +11,7 @@
 #include "perimode/assembly/model.hpp"
 #include "perimode/dynamics/transient.hpp"
 #include "perimode/fracture/quasistatic.hpp"
+#include "perimode/io/dispersion_spec.hpp"
 #include "perimode/io/initial_state.hpp"
 #include "perimode/modal/options.hpp"
 #include "perimode/statics/static.hpp"
@@ -36,11 +37,13 @@ struct Case {
   Where transient_where = {};
   std::optional<QuasistaticOptions> quasistatic;  ///< as the case gives it: no critical stretches yet
   Where quasistatic_where = {};
+  std::optional<DispersionSpec> dispersion;
   Kinematics kinematics = Kinematics::linear;
   OutputSpec output;
   std::filesystem::path file;
 
-  /// Every file the case names, in its order: particles, tables of time functions, initial fields.
+  /// Every file the case names, in its order: particles, tables of coefficients and of time functions,
+  /// initial fields.
   std::vector<std::filesystem::path> files;
   /// The case after overrides as JSON in one line, values as they are written: the same for two cases that
   /// differ in comments, layout or output.directory alone.

@@ -17,4 +17,7 @@ namespace perimode {
 /// A complete, commented case of a quasi-static analysis, as `perimode new quasistatic` prints it.
 [[nodiscard]] std::string_view quasistatic_template();
 
+/// A complete, commented case of a dispersion analysis, as `perimode new dispersion` prints it.
+[[nodiscard]] std::string_view dispersion_template();
+
 }  // namespace perimode

@@ -63,7 +63,8 @@ struct EigenOptions {
   double scale = 0.0;
   /// chebyshev: a guess of an eigenvalue somewhat above those wanted; it only steers. 0: none.
   double edge = 0.0;
-  /// chebyshev: no eigenvalue lies above (stiffness_bound / least mass). 0: unknown.
+  /// No |eigenvalue| lies above (stiffness_bound / least mass); 0: unknown. chebyshev filters by it; lanczos
+  /// looks below zero down to it where K turns out indefinite.
   double top = 0.0;
   int block_size = 0;     ///< 0: 4, and 8 from 20,000 dofs on with a factor
   int dense_limit = 600;  ///< automatic: dense below this many dofs

@@ -36,7 +36,10 @@ struct ModalResult {
   Eigen::MatrixXd effective_mass;
 
   int rigid_modes = 0;
-  int mechanisms = 0;      ///< zero-energy modes that are not rigid motions (listed as rigid)
+  int mechanisms = 0;  ///< zero-energy modes that are not rigid motions (listed as rigid)
+  /// Modes of negative eigenvalue, which bonds of negative stiffness can bring about: motions that grow as
+  /// exp(sqrt(-lambda) t). Their frequency is given as 0, and a warning says so.
+  int unstable = 0;
   double asymmetry = 0.0;  ///< max |K - K^T| / max |K|
   double imaginary = 0.0;  ///< max |Im lambda| / max |lambda|, unsymmetric problems
   double largest = 0.0;    ///< bound of (dense: the) largest eigenvalue, (rad/s)^2

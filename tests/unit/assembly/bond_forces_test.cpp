@@ -130,9 +130,14 @@ Model cloud_model(const CloudFile& file) {
 template <int Dim>
 void expect_cloud() {
   const CloudFile file(Dim);
-  const auto body = build_body<Dim>(cloud_model<Dim>(file));
-  expect_plain<Dim>(body, {});
-  expect_plain<Dim>(body, {infinite, 0.05, 0.03}, {4, 5, 100});
+  for (const bool periodic : {false, true}) {
+    Model m = cloud_model<Dim>(file);
+    std::get<CloudSpec>(m.particles).period = {Dim == 1 ? 300.6 : 10.6, 30.6, 6.0};
+    m.periodic[0] = m.periodic[Dim - 1] = periodic;
+    const auto body = build_body<Dim>(m);
+    expect_plain<Dim>(body, {});
+    expect_plain<Dim>(body, {infinite, 0.05, 0.03}, {4, 5, 100});
+  }
 }
 
 TEST(BondForces, EqualThePlainSumOnClouds) {

@@ -15,6 +15,7 @@ namespace {
 
 using test::all_ends;
 using test::box_model;
+using test::for_negative_bodies;
 using test::for_random_bodies;
 using test::random_vector;
 using test::some_bonds;
@@ -35,6 +36,11 @@ Eigen::MatrixXd dense(const SparseColumns& c) {
   return full;
 }
 
+Eigen::MatrixXd squares(const BondColumns& c) {
+  const Eigen::MatrixXd p = dense(c.positive), n = dense(c.negative);
+  return p * p.transpose() - n * n.transpose();
+}
+
 template <int Dim>
 void clear(Body<Dim>& body, const std::vector<BondRef>& bonds) {
   for (const BondRef& b : bonds) break_bond(body.bonds, b.particle, b.slot);
@@ -48,15 +54,16 @@ void expect_columns_are_what_breaks(Body<Dim> body) {
   const double scale = 1e-300 + whole.cwiseAbs().maxCoeff();
   ASSERT_LT((whole - whole.transpose()).cwiseAbs().maxCoeff(), 1e-13 * scale);
   const auto some = some_bonds(body, 12, 3);
-  const Eigen::MatrixXd c = dense(bond_columns(body, some));
-  EXPECT_LE(c.cols(), static_cast<Eigen::Index>(some.size()));
+  const BondColumns columns = bond_columns(body, some);
+  EXPECT_LE(columns.count(), static_cast<Index>(some.size()));
+  if (!softening(body)) EXPECT_EQ(columns.negative.count(), 0);
+  const Eigen::MatrixXd lost = squares(columns);
   clear(body, some);
   const Eigen::MatrixXd left = dense(body);
-  EXPECT_LT((whole - left - c * c.transpose()).cwiseAbs().maxCoeff(), 1e-13 * scale);
+  EXPECT_LT((whole - left - lost).cwiseAbs().maxCoeff(), 1e-13 * scale);
   const auto rest = with_images(body, all_ends(body));
   EXPECT_EQ(static_cast<Offset>(rest.size()), count_bonds(body.bonds, body.count()));
-  const Eigen::MatrixXd r = dense(bond_columns(body, rest));
-  EXPECT_LT((left - r * r.transpose()).cwiseAbs().maxCoeff(), 1e-13 * scale);
+  EXPECT_LT((left - squares(bond_columns(body, rest))).cwiseAbs().maxCoeff(), 1e-13 * scale);
   clear(body, rest);
   EXPECT_EQ(dense(body).cwiseAbs().maxCoeff(), 0.0);
 }
@@ -65,6 +72,12 @@ TEST(BreakableStiffness, BondColumnsAreWhatTheMatrixLoses) {
   for_random_bodies<1>(40, expect_columns_are_what_breaks<1>);
   for_random_bodies<2>(40, expect_columns_are_what_breaks<2>);
   for_random_bodies<3>(20, expect_columns_are_what_breaks<3>);
+}
+
+TEST(BreakableStiffness, ColumnsOfNegativeBondsAreWhatTheMatrixGains) {
+  for_negative_bodies<1>(30, expect_columns_are_what_breaks<1>);
+  for_negative_bodies<2>(30, expect_columns_are_what_breaks<2>);
+  for_negative_bodies<3>(10, expect_columns_are_what_breaks<3>);
 }
 
 /// Every way to name bonds gives the same list: each bond once, its image next to it.
@@ -116,10 +129,14 @@ TEST(BreakableStiffness, BondsAreListedOnceWithTheirImages) {
   expect_one_list(build_body<1>(bar));
 }
 
-TEST(BreakableStiffness, NegativeBondsAreRefused) {
+TEST(BreakableStiffness, NegativeBondsHaveColumnsOfTheirOwn) {
   Body<1> body = build_body<1>(box_model({8}, 0.5, 2.0));
   for (double& c : body.constants.kernel) c = -c;
-  EXPECT_THROW((void)bond_columns(body, with_images(body, {{0, 2}})), Error);
+  const BondColumns columns = bond_columns(body, with_images(body, {{0, 2}}));
+  EXPECT_EQ(columns.positive.count(), 0);
+  ASSERT_EQ(columns.negative.count(), 1);
+  const BondEnd<1> end = bond_end(body, {0, 2});
+  EXPECT_DOUBLE_EQ(columns.negative.value[0] * columns.negative.value[1], bond_stiffness(body, 0, end));
 }
 
 /// Each form after each of a few breaks equals the operator made anew: its bits, the stencil to round-off.
@@ -162,6 +179,12 @@ TEST(BreakableStiffness, EveryFormFollowsAnySequenceOfBreaks) {
   for_random_bodies<1>(25, [](const Body<1>& body) { expect_forms_follow(body, 4, 5); });
   for_random_bodies<2>(25, [](const Body<2>& body) { expect_forms_follow(body, 4, 12); });
   for_random_bodies<3>(12, [](const Body<3>& body) { expect_forms_follow(body, 4, 12); });
+}
+
+TEST(BreakableStiffness, EveryFormFollowsBreaksOfNegativeBonds) {
+  for_negative_bodies<1>(20, [](const Body<1>& body) { expect_forms_follow(body, 4, 5); });
+  for_negative_bodies<2>(20, [](const Body<2>& body) { expect_forms_follow(body, 4, 12); });
+  for_negative_bodies<3>(8, [](const Body<3>& body) { expect_forms_follow(body, 4, 12); });
 }
 
 TEST(BreakableStiffness, TheSameBitsForAnyNumberOfThreads) {

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <random>
@@ -13,6 +14,7 @@
 
 #include "perimode/assembly/breakable_stiffness.hpp"
 #include "support/models.hpp"
+#include "support/negative_shells.hpp"
 
 namespace perimode::test {
 
@@ -41,6 +43,17 @@ inline Model random_symmetric_model(unsigned seed, int dim) {
     m.block_materials["corner"].youngs_modulus = 3.0;
   }
   m.calibration = upto(2) ? Calibration::discrete : Calibration::continuum;
+  return m;
+}
+
+/// The same with shells of which some are negative, in both blocks.
+inline Model random_negative_model(unsigned seed, int dim) {
+  Model m = random_symmetric_model(seed, dim);
+  const double spacing = std::get<GridSpec>(m.particles).spacing;
+  m.volume_correction = VolumeCorrection::none;
+  m.calibration = Calibration::continuum;
+  m.material.micromodulus = random_shells(dim, spacing, m.horizon.value * spacing, seed);
+  for (auto& [name, material] : m.block_materials) material.micromodulus = m.material.micromodulus;
   return m;
 }
 
@@ -88,6 +101,20 @@ void for_random_bodies(int grids, const Check& check) {
   cloud.model.boundary.push_back({Fix{{0}, Region{FaceRegion{{0, false}, 0, 0.6}, {}}}, {}});
   cloud.model.calibration = Calibration::discrete;
   check(build_body<Dim>(cloud.model));
+  std::get<CloudSpec>(cloud.model.particles).period.assign(Dim, 5.0);
+  for (int a = 0; a < Dim; ++a) cloud.model.periodic[static_cast<std::size_t>(a)] = true;
+  check(build_body<Dim>(cloud.model));
+}
+
+/// Calls check(body) for random grids some of whose bonds are negative.
+template <int Dim, class Check>
+void for_negative_bodies(int grids, const Check& check) {
+  for (int seed = 1; seed <= grids; ++seed) {
+    SCOPED_TRACE("negative, seed " + std::to_string(seed) + " in " + std::to_string(Dim) + "D");
+    const auto body = build_body<Dim>(random_negative_model(static_cast<unsigned>(seed), Dim));
+    ASSERT_TRUE(softening(body));
+    check(body);
+  }
 }
 
 /// All alive bonds from all ends.

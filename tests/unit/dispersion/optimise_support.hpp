@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "perimode/dispersion/optimise.hpp"
@@ -20,6 +21,10 @@ Lattice<Dim> constant_lattice(double ratio, Plane plane = Plane::strain, double 
   const Family<Dim> family = make_family<Dim>(spacing, medium.horizon, VolumeCorrection::none);
   const std::vector<double> rates = bond_rates<Dim>(medium, family);
   return {medium, family, rates};
+}
+
+inline Eigen::VectorXd as_vector(const std::vector<double>& values) {
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
 }  // namespace perimode::test

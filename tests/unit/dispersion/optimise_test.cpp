@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -18,11 +18,8 @@
 namespace perimode {
 namespace {
 
+using test::as_vector;
 using test::constant_lattice;
-
-Eigen::VectorXd as_vector(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
 
 std::vector<double> as_list(const Eigen::VectorXd& values) { return {values.begin(), values.end()}; }
 
@@ -36,6 +33,7 @@ bool has_clp() {
   try {
     OptimiseOptions options;
     options.norm = ErrorNorm::l1;
+    options.points = 16;
     (void)optimise_micromodulus(constant_lattice<1>(2), options);
     return true;
   } catch (const Error& error) {
@@ -44,6 +42,10 @@ bool has_clp() {
     return false;
   }
 }
+
+/// Squared errors of the original model with the roots sorted by size (contour_error_test.cpp), which the
+/// reference values below are divided by.
+double sorted_original(int m) { return m == 2 ? 1123.5599255 : 1328.1122683; }
 
 // Coefficients in the order (1,0), (1,1), (2,0), (2,1), (2,2), (3,0); errors over those of the original.
 TEST(Optimise, QuadraticProgrammesInThePlane) {
@@ -62,9 +64,9 @@ TEST(Optimise, QuadraticProgrammesInThePlane) {
     const OptimisedMicromodulus result = optimise_micromodulus(lattice);
     ASSERT_EQ(result.alpha.size(), row.alpha.size());
     for (std::size_t o = 0; o < row.alpha.size(); ++o) EXPECT_NEAR(result.alpha[o], row.alpha[o], 1e-6);
-    const ContourError error = relative_error(lattice, result.alpha);
-    EXPECT_NEAR(error.l1, row.l1, 1e-6);
-    EXPECT_NEAR(error.l2, row.l2, 1e-6);
+    const ContourError error = contour_error(with_shells(lattice, result.alpha));
+    EXPECT_NEAR(error.l1 / contour_error(lattice).l1, row.l1, 1e-6);
+    EXPECT_NEAR(error.l2 / sorted_original(row.m), row.l2, 1e-6);
     EXPECT_LT(result.constraint_error, 1e-13);
     EXPECT_LT(result.optimality, 1e-12);
     EXPECT_TRUE(result.active.empty());
@@ -93,9 +95,9 @@ TEST(Optimise, BoundedProgrammesInThePlane) {
       EXPECT_EQ(result.active.size(), result.alpha.size() - 2);
       EXPECT_LT(result.optimality, 1e-9);
       EXPECT_LT(result.constraint_error, 1e-13);
-      const ContourError error = relative_error(lattice, result.alpha);
-      EXPECT_NEAR(error.l1, row.l1, 1e-8);
-      EXPECT_NEAR(error.l2, row.l2, 1e-8);
+      const ContourError error = contour_error(with_shells(lattice, result.alpha));
+      EXPECT_NEAR(error.l1 / contour_error(lattice).l1, row.l1, 1e-8);
+      EXPECT_NEAR(error.l2 / sorted_original(row.m), row.l2, 1e-8);
     }
   }
 }
@@ -226,6 +228,7 @@ void expect_bound_is_sharp(double ratio, ErrorNorm norm, std::optional<double> p
   OptimiseOptions options;
   options.norm = norm;
   options.poissons_ratio = poisson;
+  options.points = norm == ErrorNorm::l1 ? 64 : 0;
   options.lower_bound = 1e6;
   const OptimisedMicromodulus refused = optimise_micromodulus(lattice, options);
   ASSERT_EQ(refused.status, OptimiseStatus::infeasible);
@@ -255,100 +258,6 @@ TEST(Optimise, TheLargestBoundIsSharp) {
       expect_bound_is_sharp<3>(2.0, norm, poisson);
     }
   }
-}
-
-// The branches of the contour are eigenpairs of the symbol, whatever the multipliers.
-template <int Dim>
-void expect_eigenpairs_on_the_contour(double ratio) {
-  const Lattice<Dim> lattice = constant_lattice<Dim>(ratio);
-  std::vector<double> alpha(lattice.family.shell.size());
-  for (std::size_t o = 0; o < alpha.size(); ++o) alpha[o] = std::sin(3.0 + 2.0 * static_cast<double>(o));
-  const Lattice<Dim> changed = with_shells(lattice, alpha);
-  const std::vector<double> rates = unit_rates(changed), constant = constant_rates(changed);
-  const double spacing = lattice.family.spacing;
-  for (const ContourBranch<Dim>& side : contour_branches<Dim>()) {
-    for (const double s : {0.0, 0.4, 1.7, 3.0, std::numbers::pi}) {
-      const Point<Dim> k = contour_point(side, s);
-      const Eigen::Matrix<double, Dim, Dim> symbol =
-          lattice_symbol<Dim>(changed.family, rates, Point<Dim>(k / spacing));
-      const double value = side.polarisation.dot(symbol * side.polarisation);
-      EXPECT_LT((symbol * side.polarisation - value * side.polarisation).norm(), 1e-13);
-      EXPECT_NEAR(orbit_squares<Dim>(lattice.family, constant, k, side.polarisation).dot(as_vector(alpha)),
-                  value, 1e-13);
-    }
-  }
-  // The waves of a side are Dim, orthogonal or shared.
-  std::vector<int> waves(1, 0);
-  for (const ContourBranch<Dim>& side : contour_branches<Dim>()) waves[0] += side.count;
-  EXPECT_EQ(waves[0] % Dim, 0);
-}
-
-TEST(Optimise, BranchesOfTheContourAreFixedBySymmetry) {
-  expect_eigenpairs_on_the_contour<1>(3.0);
-  expect_eigenpairs_on_the_contour<2>(3.0);
-  expect_eigenpairs_on_the_contour<2>(5.0);
-  expect_eigenpairs_on_the_contour<3>(2.0);
-  expect_eigenpairs_on_the_contour<3>(3.0);
-}
-
-template <int Dim>
-Eigen::Matrix<double, Dim, 1> long_wave_speeds(const Lattice<Dim>& lattice, const Point<Dim>& direction) {
-  // The acoustic tensor (1/2) sum rate n n^T (xi . direction)^2, no small wave number.
-  Eigen::Matrix<double, Dim, Dim> tensor = Eigen::Matrix<double, Dim, Dim>::Zero();
-  for (std::size_t j = 0; j < lattice.rates.size(); ++j) {
-    Point<Dim> xi;
-    for (int a = 0; a < Dim; ++a)
-      xi[a] = lattice.family.spacing * lattice.family.offset[j][static_cast<std::size_t>(a)];
-    tensor +=
-        0.5 * lattice.rates[j] * std::pow(xi.dot(direction), 2) / xi.squaredNorm() * xi * xi.transpose();
-  }
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, Dim, Dim>>(tensor).eigenvalues().cwiseSqrt();
-}
-
-template <int Dim>
-void expect_exact_long_waves(double ratio, Plane plane, ErrorDomain domain) {
-  const Lattice<Dim> lattice = constant_lattice<Dim>(ratio, plane);
-  OptimiseOptions options;
-  options.domain = domain;
-  const Lattice<Dim> better = with_shells(lattice, optimise_micromodulus(lattice, options).alpha);
-  std::mt19937 random(3);
-  std::normal_distribution<double> normal;
-  for (int i = 0; i < 10; ++i) {
-    Point<Dim> direction;
-    for (double& d : direction) d = normal(random);
-    direction.normalize();
-    const Eigen::Matrix<double, Dim, 1> speeds = long_wave_speeds(better, direction);
-    EXPECT_NEAR(speeds[Dim - 1] / classical_speed(lattice.medium, Branch::pressure), 1.0, 1e-12);
-    for (int s = 0; s + 1 < Dim; ++s)
-      EXPECT_NEAR(speeds[s] / classical_speed(lattice.medium, Branch::shear), 1.0, 1e-12);
-  }
-}
-
-TEST(Optimise, LongWavesAreExactInEveryDirection) {
-  for (const ErrorDomain domain : {ErrorDomain::contour, ErrorDomain::zone}) {
-    expect_exact_long_waves<2>(3.0, Plane::strain, domain);
-    expect_exact_long_waves<2>(3.0, Plane::stress, domain);
-    expect_exact_long_waves<2>(std::numbers::sqrt2, Plane::stress, domain);
-    expect_exact_long_waves<3>(2.0, Plane::stress, domain);
-    expect_exact_long_waves<3>(3.0, Plane::stress, domain);
-  }
-}
-
-TEST(Optimise, AnotherPoissonsRatioHoldsAlongTheAxes) {
-  const Lattice<2> lattice = constant_lattice<2>(3);
-  OptimiseOptions options;
-  options.poissons_ratio = 0.2;
-  const OptimisedMicromodulus result = optimise_micromodulus(lattice, options);
-  const Lattice<2> better = with_shells(lattice, result.alpha);
-  const double bar = std::sqrt(72e9 / 2440.0);
-  const double p = bar * std::sqrt(0.8 / (1.2 * 0.6)), s = bar * std::sqrt(0.5 / 1.2);
-  const Eigen::Vector2d along = long_wave_speeds(better, Point<2>(0.0, 1.0));
-  EXPECT_NEAR(along[1] / p, 1.0, 1e-12);
-  EXPECT_NEAR(along[0] / s, 1.0, 1e-12);
-  // Cauchy's relation C12 = C44 along the diagonal: (C11 + 3 C44)/2 instead of C11, (C11 - C44)/2.
-  const Eigen::Vector2d diagonal = long_wave_speeds(better, Point<2>(1.0, 1.0).normalized());
-  EXPECT_NEAR(diagonal[1], std::sqrt(0.5 * (p * p + 3.0 * s * s)), 1e-12 * p);
-  EXPECT_NEAR(diagonal[0], std::sqrt(0.5 * (p * p - s * s)), 1e-12 * p);
 }
 
 TEST(Optimise, TheCubeImprovesOnTheOriginal) {

@@ -144,6 +144,16 @@ TEST(ReadCase, CloudFileIsRelativeToTheCaseAndMayNameTheBlocks) {
   EXPECT_EQ(std::get<FaceRegion>(std::get<Fix>(model.boundary[0].what).at.shape).depth, 0.1);
 }
 
+TEST(ReadCase, APeriodicCloudHasAPeriod) {
+  const TemporaryFolder folder;
+  (void)folder.write("cloud.csv", test::sample_cloud());
+  const auto file = folder.write("case.yaml", test::sample_cases().at("cloud"));
+  EXPECT_THAT(std::get<CloudSpec>(read_case(file).model.particles).period, ElementsAre());
+  const Model model = read_case(file, {"body.particles.period=[0, 2.5]", "body.periodic=[y]"}).model;
+  EXPECT_THAT(std::get<CloudSpec>(model.particles).period, ElementsAre(0.0, 2.5));
+  EXPECT_THAT(model.periodic, ElementsAre(false, true, false));
+}
+
 TEST(ReadCase, TheoryOwnPoissonsRatioIsAccepted) {
   EXPECT_NO_THROW((void)read_sample("plate", {"material.poissons_ratio=0.3333333333333333"}));
   EXPECT_NO_THROW((void)read_sample("plate", {"body.plane=strain", "material.poissons_ratio=0.25"}));

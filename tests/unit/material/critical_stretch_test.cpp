@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace perimode {
 namespace {
@@ -71,6 +72,87 @@ TEST(CriticalStretch, IsTheInverseOfTheFractureEnergy) {
       EXPECT_NEAR(fracture_energy(m, modulus, s0, horizon, continuum) / energy, 1.0, 1e-14);
     }
   }
+}
+
+/// Eq. (50) of [alebrahim2021] for N = 3, its coefficients to two digits.
+Micromodulus fitted() {
+  Micromodulus m{Kernel::fourier};
+  m.a0 = 2.3;
+  m.a = {2.0, -0.39, -0.48, 0.28, 0.14, -0.15, -0.02, 0.05};
+  m.w = 1.1;
+  m.spacing = 0.25e-3;
+  return m;
+}
+
+/// 3.8, 3.2 and 0.5 for the rest: f of the orbits of N = 3.
+Micromodulus shells_three() {
+  Micromodulus m{Kernel::shells};
+  m.shells = {{{1, 0, 0}, 3.8}, {{1, 1, 0}, 3.2}, {{2, 0, 0}, 0.5},
+              {{2, 1, 0}, 0.5}, {{2, 2, 0}, 0.5}, {{3, 0, 0}, 0.5}};
+  return m;
+}
+
+// Glass plates of [alebrahim2021] with eq. (52) evaluated anew; 7 digits are known.
+TEST(CriticalStretch, OfTheFittedInfluenceFunction) {
+  const Continuum strain{2, Plane::strain, 1.0};
+  EXPECT_NEAR(critical_stretch(fitted(), 72e9, 135.0, horizon, strain), 2.097473588e-3, 1e-4 * 2.0975e-3);
+  EXPECT_NEAR(critical_stretch(fitted(), 65e9, 204.0, horizon, strain), 2.713652733e-3, 1e-4 * 2.7137e-3);
+}
+
+/// A table of [alebrahim2021] (positive, N = 3), summed over the bonds that cross a grid line; 5 digits are
+/// known.
+TEST(CriticalStretch, OfATableByItsCrossingBonds) {
+  const auto family = make_family<2>(0.25e-3, horizon, VolumeCorrection::none);
+  const Continuum strain{2, Plane::strain, 1.0};
+  const double glass = stretch_of(135.0, lattice_fracture_energy(shells_three(), 72e9, 1.0, family, strain));
+  const double duran = stretch_of(204.0, lattice_fracture_energy(shells_three(), 65e9, 1.0, family, strain));
+  EXPECT_NEAR(duran / glass, std::sqrt(204.0 / 135.0 * 72.0 / 65.0), 1e-12);
+  EXPECT_NEAR(glass, 2.0442e-3, 5e-5 * 2.0442e-3);
+  EXPECT_NEAR(duran, 2.6448e-3, 5e-5 * 2.6448e-3);
+}
+
+/// Particle by particle: the bonds that cross the plane between two layers of a periodic block.
+TEST(CriticalStretch, CountsTheBondsThatCrossAGridPlane) {
+  const double h = 0.5;
+  const auto family = make_family<3>(h, 3.0 * h, VolumeCorrection::none);
+  Micromodulus m{Kernel::shells};
+  double alpha = 1.0;
+  for (const auto& own : family.shell) {
+    m.shells.push_back({own, alpha});
+    alpha = -0.7 * alpha + 0.4;
+  }
+  const double c0 = micromodulus_constant(m, modulus, family.horizon, {3});
+  const auto shapes = kernel_shapes(m, family);
+  for (int axis = 0; axis < 3; ++axis) {
+    double sum = 0.0;  // of one column of cells of area h^2, over the layers below the plane
+    for (int layer = 0; layer < family.reach(); ++layer) {
+      for (int k = 0; k < family.size(); ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        if (family.offset[at][static_cast<std::size_t>(axis)] <= layer) continue;
+        sum += 0.5 * c0 * shapes[at] * family.length[at] * std::pow(h, 6);
+      }
+    }
+    EXPECT_NEAR(lattice_fracture_energy(m, modulus, 1.0, family, {3}), sum / (h * h),
+                1e-12 * c0 * std::pow(h, 6));
+  }
+}
+
+/// The sum over the grid of the constant kernel tends to the integral as the grid is refined.
+TEST(CriticalStretch, OfAFineGridIsThatOfTheContinuum) {
+  for (const int ratio : {10, 40}) {
+    const auto family = make_family<2>(horizon / ratio, horizon, VolumeCorrection::none);
+    const Continuum strain{2, Plane::strain, 0.1};
+    const double grid = lattice_fracture_energy({Kernel::constant}, modulus, 1.0, family, strain);
+    const double whole = fracture_energy({Kernel::constant}, modulus, 1.0, horizon, strain);
+    EXPECT_NEAR(grid / whole, 1.0, 0.6 / ratio);  // a rim of cells in or out
+  }
+}
+
+TEST(CriticalStretch, RefusesAnEnergyThatNegativePartsOutweigh) {
+  Micromodulus m = fitted();
+  m.a0 = -3.0;
+  EXPECT_THROW((void)critical_stretch(m, modulus, energy, horizon, {2}), Error);
+  EXPECT_THROW((void)stretch_of(energy, 0.0), Error);
 }
 
 TEST(CriticalStretch, RefusesAFractureEnergyThatIsNotPositive) {
