@@ -13,7 +13,7 @@ namespace perimode {
 /// over signs of an orbit separate into products of a cosine or sine per axis, tabled, with
 ///   1 - cos a cos b cos c = (1 - cos a) + cos a ((1 - cos b) + cos b (1 - cos c)),
 /// which loses no digits for long waves; a row costs O(reach^3), a point O(reach).
-/// docs/theory/16_dispersion.md eqs. (13), (14). Lower dimensions have y = z = 0.
+/// docs/theory/16_dispersion.md eqs. (7), (8). Lower dimensions have y = z = 0.
 /// @pre rates are equal within an orbit.
 template <int Dim>
 class SymbolOnGrid {

@@ -40,6 +40,10 @@ void optimise(benchmark::State& state, const OptimiseOptions& options) {
   state.counters["l2"] = error.l2 / original.l2;
 }
 
+void bar(benchmark::State& state, const OptimiseOptions& options) { optimise<1>(state, options); }
+void plane(benchmark::State& state, const OptimiseOptions& options) { optimise<2>(state, options); }
+void space(benchmark::State& state, const OptimiseOptions& options) { optimise<3>(state, options); }
+
 OptimiseOptions with(ErrorNorm norm, ErrorDomain domain, std::optional<double> bound) {
   OptimiseOptions options;
   options.norm = norm;
@@ -53,15 +57,15 @@ const OptimiseOptions bounded = with(ErrorNorm::l2, ErrorDomain::contour, 0.0);
 const OptimiseOptions absolute = with(ErrorNorm::l1, ErrorDomain::contour, {});
 const OptimiseOptions zone = with(ErrorNorm::l2, ErrorDomain::zone, {});
 
-BENCHMARK_CAPTURE(optimise<1>, square, square)->Arg(10)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<1>, absolute, absolute)->Arg(10)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<2>, square, square)->Arg(2)->Arg(3)->Arg(5)->Arg(8)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<2>, bounded, bounded)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<2>, absolute, absolute)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<2>, zone, zone)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<3>, square, square)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<3>, bounded, bounded)->Arg(3)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<3>, absolute, absolute)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(optimise<3>, zone, zone)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bar, square, square)->Arg(10)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(bar, absolute, absolute)->Arg(10)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plane, square, square)->Arg(2)->Arg(3)->Arg(5)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plane, bounded, bounded)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plane, absolute, absolute)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(plane, zone, zone)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(space, square, square)->Arg(2)->Arg(3)->Arg(5)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(space, bounded, bounded)->Arg(3)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(space, absolute, absolute)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(space, zone, zone)->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
 
 }  // namespace

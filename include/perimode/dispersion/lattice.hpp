@@ -14,13 +14,13 @@ template <int Dim>
 struct Lattice {
   Medium medium;
   Family<Dim> family;
-  std::vector<double> rates;  ///< bond_rates: bond stiffness over particle mass, 1/s2
+  std::vector<double> rates;  ///< bond_rates: bond stiffness over particle mass, 1/s2; equal in an orbit
 };
 
 /// The lattice of a model's `material` (blocks, holes, pre-cracks and boundaries left aside), calibrated as
 /// the model says: with complete families `discrete` and `discrete_cut` are the same. Throws invalid_input,
 /// pointing at the place in the case: a cloud, a dimension that is not Dim, or what build_body refuses of
-/// horizon and material. Cost O((2 delta/spacing + 2)^Dim).
+/// grid, section, horizon and material (require_lattice_kernel_fits). Cost O((2 delta/spacing + 2)^Dim).
 template <int Dim>
 [[nodiscard]] Lattice<Dim> make_lattice(const Model& model);
 

@@ -12,23 +12,27 @@
 namespace perimode {
 
 /// The plane waves of one wave vector: eigenpairs of the symbol M(k). Branch 0 is P, the wave whose
-/// polarisation is most parallel to k; the others, S, follow in ascending frequency.
+/// polarisation is most parallel to k (the faster where two are equally so; of a shared frequency the
+/// combination nearest to k); the others, S, follow in ascending frequency. docs/theory/16_dispersion.md.
 template <int Dim>
 struct PlaneWaves {
   Point<Dim> k = Point<Dim>::Zero();               ///< rad/m
   std::array<double, Dim> squared = {};            ///< omega^2, 1/s2; negative: the lattice is unstable
-  std::array<double, Dim> angular_frequency = {};  ///< omega, rad/s; NaN where omega^2 < 0 beyond round-off
+  std::array<double, Dim> angular_frequency = {};  ///< omega, rad/s; NaN where omega^2 < 0 beyond
+                                                   ///< round-off, and so are the velocities
   std::array<double, Dim> phase_velocity = {};     ///< omega/|k|, m/s; at k = 0 its limit along the direction
-  std::array<Point<Dim>, Dim> group_velocity = {};  ///< grad omega, m/s; at k = 0 its limit likewise
+  std::array<Point<Dim>, Dim> group_velocity = {};  ///< grad omega, m/s; at k = 0 its limit likewise; 0
+                                                    ///< where omega is
   Eigen::Matrix<double, Dim, Dim> polarisation;     ///< unit columns, one per branch
 };
 
 /// "P", "S" (2D), "S1", "S2" (3D).
 [[nodiscard]] std::string branch_name(int branch, int dimension);
 
-/// Waves at one wave vector. At k = 0 (|k| delta below 1e-6) the limits along `direction` (a unit vector)
-/// from the acoustic tensor (1/2) sum_j rate_j n_j n_j^T (xi_j . direction)^2. The gradient is a^T dM/dk_c a
-/// / (2 omega), a the polarisation; where branches cross it is that of one of their choices. Cost O(family).
+/// Waves at one wave vector. For |k| delta below 1e-6 the limits along k, or along `direction` (a unit
+/// vector, used at k = 0 only), from the acoustic tensor (1/2) sum_j rate_j n_j n_j^T (xi_j . direction)^2.
+/// The gradient is a^T dM/dk_c a / (2 omega), a the polarisation; where branches cross it is that of one of
+/// their choices. Cost O(family).
 template <int Dim>
 [[nodiscard]] PlaneWaves<Dim> plane_waves(const Lattice<Dim>& lattice, const Point<Dim>& k,
                                           const Point<Dim>& direction);
@@ -53,7 +57,8 @@ template <int Dim>
 template <int Dim>
 [[nodiscard]] std::vector<Point<Dim>> irreducible_contour();
 
-/// plane_waves along a path, in parallel; the same for any number of threads.
+/// plane_waves along a path, in parallel; the same for any number of threads. A path that ends at k = 0 takes
+/// the limit from where it came.
 template <int Dim>
 [[nodiscard]] std::vector<PlaneWaves<Dim>> waves_along(const Lattice<Dim>& lattice,
                                                        const ZonePath<Dim>& path);

@@ -20,17 +20,19 @@ struct ZoneSurvey {
   double omega_max = 0.0;  ///< largest omega, refined beyond the grid by Newton steps, rad/s
   Point<Dim> omega_max_at = Point<Dim>::Zero();
   double stable_step = 0.0;  ///< 2/omega_max, s
-  /// Root mean square over the grid and branches (P, S) of (omega - c |k|)/(c |k|); k = 0 left out.
+  /// Root mean square over the grid of (omega - c |k|)/(c |k|), of P and of S (3D: both; 1D: 0); k = 0 left
+  /// out, omega 0 where omega^2 < 0.
   std::array<double, 2> phase_error = {};
   std::array<double, 2> worst_phase_error = {};  ///< largest |omega/(c |k|) - 1|
 };
 
-/// Throws invalid_input for n < 2. Cost O(n^Dim/Dim! family).
+/// In parallel, the same for any number of threads. Throws invalid_input for n < 2.
+/// Cost O(n^Dim/Dim! reach + n^(Dim-1) reach^Dim). docs/theory/16_dispersion.md eqs. (6) to (10).
 template <int Dim>
 [[nodiscard]] ZoneSurvey<Dim> survey_zone(const Lattice<Dim>& lattice, int points_per_axis);
 
 /// Waves of directions spread evenly over the plane of x and y (1D: one), all at |k| (rad/m; 0: the long-wave
-/// limit): polar diagrams.
+/// limit): polar diagrams. Throws invalid_input for fewer than one direction.
 template <int Dim>
 [[nodiscard]] std::vector<PlaneWaves<Dim>> waves_around(const Lattice<Dim>& lattice, double k,
                                                         int directions);
@@ -48,7 +50,9 @@ struct BranchBand {
   double worst_overshoot_k = 0.0;
 };
 
-/// To 1e-10 relative (crossings by bisection between samples fine against 1/reach). `error` e.g. 0.05.
+/// To 1e-10 relative (bisection between samples fine against 1/reach). `error` e.g. 0.05. The shear branch of
+/// 3D is the slower; omega^2 < 0 counts as omega = 0. Throws invalid_input: a direction of length 0, longest
+/// <= 0, a shear wave in 1D.
 template <int Dim>
 [[nodiscard]] BranchBand branch_band(const Lattice<Dim>& lattice, Branch branch, const Point<Dim>& direction,
                                      double longest, double error);
@@ -58,8 +62,9 @@ template <int Dim>
 [[nodiscard]] double central_difference_frequency(double omega, double dt);
 [[nodiscard]] double newmark_frequency(double omega, double dt);
 
-/// The 1D wave equation by second-order finite differences in space and time, courant = c dt/dx:
-/// omega = (2/dt) asin(courant sin(k dx/2)) [bouaraquia2024] eq. (51). courant 0: time exact.
+/// The 1D wave equation by second-order finite differences in space and time, courant = speed dt/dx:
+/// omega = (2/dt) asin(courant sin(k dx/2)) [bouaraquia2024] eq. (51). courant 0: time exact; NaN where
+/// the scheme is unstable.
 [[nodiscard]] double finite_difference_frequency(double k, double speed, double dx, double courant);
 
 }  // namespace perimode

@@ -9,8 +9,8 @@
 
 #include "lattices.hpp"
 #include "perimode/core/error.hpp"
-#include "perimode/linalg/threads.hpp"
 #include "perimode/dispersion/zone.hpp"
+#include "perimode/linalg/threads.hpp"
 #include "support/models.hpp"
 
 namespace perimode {
@@ -112,8 +112,7 @@ TEST(PlaneWaves, AreFiniteWhereBranchesMeetOrHaveNoStiffness) {
   const auto finite = [](const auto& waves) {
     for (const auto& v : waves.group_velocity) EXPECT_TRUE(v.allFinite());
     EXPECT_TRUE(waves.polarisation.allFinite());
-    EXPECT_LT((waves.polarisation.transpose() * waves.polarisation -
-               decltype(waves.polarisation)::Identity())
+    EXPECT_LT((waves.polarisation.transpose() * waves.polarisation - decltype(waves.polarisation)::Identity())
                   .norm(),
               1e-13);
   };
