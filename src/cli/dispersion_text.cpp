@@ -29,7 +29,7 @@ void bands(fmt::memory_buffer& out, const Lattice<Dim>& lattice, const std::vect
       "line to [pi/dx]", fmt::format("within {:.3g} % to k", 100.0 * error));
   for (const CornerBand<Dim>& entry : list) {
     const BranchBand& band = entry.band;
-    fmt::format_to(to, "{:16} {:6}  {:15.2f}  {:>10}  {:15.6e}  {:12.4f}  {:>22}  {:>9}\n",
+    fmt::format_to(to, "{:16} {:6}  {:15.6g}  {:>10}  {:15.6e}  {:12.4f}  {:>22}  {:>9}\n",
                    point_text<Dim>(entry.corner), entry.branch == Branch::pressure ? "P" : "S",
                    classical_speed(lattice.medium, entry.branch), ratio_text(band.long_wave_ratio),
                    band.cut_off, band.cut_off_k / unit,
@@ -152,6 +152,9 @@ std::string optimised_text(const Lattice<Dim>& lattice, const OptimisedReport<Di
     return fmt::to_string(out);
   }
   fmt::format_to(to, "; by {}\n\n", r.solver);
+  if (o.poissons_ratio)
+    fmt::format_to(
+        to, "the speeds aimed at are those of this ratio; those below are compared with the theory's\n\n");
   coefficients(out, lattice, r.alpha);
   fmt::format_to(to, "\n");
   bands(out, lattice, optimised.report.bands, spec.phase_error);

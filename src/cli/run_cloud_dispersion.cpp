@@ -117,7 +117,7 @@ std::string text_of(const Body<Dim>& body, const std::vector<AxisWaves<Dim>>& ax
     for (int b = 0; b < Dim; ++b) {
       const auto first = error_of(axis.waves.front(), b, medium);
       const auto last = error_of(axis.waves.back(), b, medium);
-      text += fmt::format("{:4}  {:6}  {:15.2f}  {:16.6g}  {:8.5f}  {:8.5f}  {:17.6g}  {:8.5f}  {:8.5f}\n",
+      text += fmt::format("{:4}  {:6}  {:15.6g}  {:16.6g}  {:8.5f}  {:8.5f}  {:17.6g}  {:8.5f}  {:8.5f}\n",
                           "xyz"[axis.axis], branch_name(b, Dim), classical_speed(medium, kind_of(b)),
                           2.0 * pi / axis.waves.front().waves.k.norm(), first[0], first[1],
                           2.0 * pi / axis.waves.back().waves.k.norm(), last[0], last[1]);

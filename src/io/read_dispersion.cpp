@@ -129,13 +129,18 @@ void read_targets(const Section& section, int dimension, OptimiseOptions& option
 
 /// The kernel to be bettered is a multiple of the constant one in whole cells.
 void check_kernel(const Cursor& cursor, const Model& model) {
+  const auto refuse = [&](const char* expected, const char* got, const char* remedy) {
+    invalid_input({cursor.path() + ": " + expected, got, remedy, cursor.where()});
+  };
   const Kernel kernel = model.material.micromodulus.kernel;
   if (kernel != Kernel::constant && !is_lattice_kernel(kernel)) {
-    cursor.complain("the kernel constant, fourier or shells in `material`",
-                    "what is sought multiplies the constant kernel");
+    refuse("a material of the kernel constant, fourier or shells", "another kernel",
+           "what is sought multiplies the constant kernel: take that");
   }
   if (model.volume_correction != VolumeCorrection::none) {
-    cursor.complain("volume_correction: none in `material`", "what is sought multiplies whole cells");
+    refuse("a material with volume_correction: none",
+           model.volume_correction == VolumeCorrection::linear ? "linear" : "exact",
+           "what is sought multiplies whole cells: leave the correction out");
   }
 }
 
