@@ -44,6 +44,7 @@ void add_classical(Figure& figure, const std::string& panel, int branch) {
 /// Kernels shown with the optimal and with the positive columns of table 2, N = 3.
 std::vector<std::string> shown_plates(bool positive) {
   std::vector<std::string> names = {"original"};
+  names.reserve(names.size() + method_names.size() + 2);
   for (const std::string& method : method_names)
     names.push_back(method + (positive ? " positive" : " optimal"));
   if (positive) {

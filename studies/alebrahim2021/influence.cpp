@@ -30,6 +30,7 @@ void add_function(const std::string& name, const Micromodulus& function, const s
   results[key("least_at", name, n)] = fit.least_at;
   double deviation = 0.0;
   std::vector<double> on_grid;
+  on_grid.reserve(alpha.size());
   for (std::size_t orbit = 0; orbit < alpha.size(); ++orbit) {
     const auto& offset = original.family.shell[orbit];
     const int squared = offset[0] * offset[0] + offset[1] * offset[1];

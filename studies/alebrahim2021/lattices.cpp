@@ -44,6 +44,7 @@ Model periodic_model(int n, const std::vector<double>& alpha, int cells) {
   const Lattice<Dim> lattice = original_lattice<Dim>(n);
   model.material = lattice.medium.material;
   model.material.micromodulus.kernel = Kernel::shells;
+  model.material.micromodulus.shells.reserve(alpha.size());
   for (std::size_t s = 0; s < alpha.size(); ++s) {
     Shell& shell = model.material.micromodulus.shells.emplace_back();
     std::copy(lattice.family.shell[s].begin(), lattice.family.shell[s].end(), shell.offset.begin());

@@ -199,6 +199,7 @@ void add_numbering(const ExpectedResults& paper, Results& results) {
     for (std::size_t i = 0; i < used.size(); ++i)
       if (n == 2 || (i != 1 && i != 2)) free.push_back(i);
     std::vector<int> orbits;
+    orbits.reserve(free.size());
     for (const std::size_t i : free) orbits.push_back(used[i]);
     std::sort(orbits.begin(), orbits.end());
     double next = std::numeric_limits<double>::infinity();

@@ -28,7 +28,8 @@ void let_go(const RidgeRun& run, const Point<Dim>& direction,
   Body<Dim> body = build_body<Dim>(periodic_model<Dim>(run.n, run.alpha, run.cells));
   InitialState initial;
   initial.displacement = Eigen::VectorXd::Zero(Dim * static_cast<Eigen::Index>(body.count()));
-  const Point<Dim> middle = Point<Dim>::Constant(run.cells / 2 + 0.5);
+  const Index half = run.cells / 2;
+  const Point<Dim> middle = Point<Dim>::Constant(static_cast<double>(half) + 0.5);
   for (Index i = 0; i < body.count(); ++i) {
     const double squared = (body.particles.position[static_cast<std::size_t>(i)] - middle).squaredNorm();
     initial.displacement.segment<Dim>(Dim * static_cast<Eigen::Index>(i)) =

@@ -107,8 +107,8 @@ void blocks(benchmark::State& state) {
 
 /// The same bodies with every other bond negative, against those without, by turns: `x positive` is the speed
 /// of the signed kernels over that of the others.
-template <int Dim>
-void negative(benchmark::State& state, StiffnessForm form) {
+template <int Dim, StiffnessForm form>
+void negative(benchmark::State& state) {
   const auto body = build_body<Dim>(cube<Dim>(static_cast<int>(state.range(0))));
   auto mixed = body;
   const int size = body.constants.family_size;
@@ -188,16 +188,10 @@ BENCHMARK(calibrated<2>)->Name("stencil_discrete/2D")->Arg(200)->Unit(benchmark:
 BENCHMARK(calibrated<3>)->Name("stencil_discrete/3D")->Arg(47)->Unit(benchmark::kMillisecond);
 BENCHMARK(partial<2>)->Name("stencil_partial/2D")->Arg(200)->Unit(benchmark::kMillisecond);
 BENCHMARK(partial<3>)->Name("stencil_partial/3D")->Arg(47)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(negative<2>, stencil, StiffnessForm::stencil)
-    ->Name("stencil_negative/2D")
-    ->Arg(200)
-    ->Arg(1000);
-BENCHMARK_CAPTURE(negative<3>, stencil, StiffnessForm::stencil)
-    ->Name("stencil_negative/3D")
-    ->Arg(47)
-    ->Arg(100);
-BENCHMARK_CAPTURE(negative<2>, bonds, StiffnessForm::bonds)->Name("bonds_negative/2D")->Arg(200);
-BENCHMARK_CAPTURE(negative<3>, bonds, StiffnessForm::bonds)->Name("bonds_negative/3D")->Arg(47);
+BENCHMARK(negative<2, StiffnessForm::stencil>)->Name("stencil_negative/2D")->Arg(200)->Arg(1000);
+BENCHMARK(negative<3, StiffnessForm::stencil>)->Name("stencil_negative/3D")->Arg(47)->Arg(100);
+BENCHMARK(negative<2, StiffnessForm::bonds>)->Name("bonds_negative/2D")->Arg(200);
+BENCHMARK(negative<3, StiffnessForm::bonds>)->Name("bonds_negative/3D")->Arg(47);
 BENCHMARK(bonds<2>)->Name("bonds/2D")->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
 BENCHMARK(bonds<3>)->Name("bonds/3D")->Arg(30)->Arg(47)->Unit(benchmark::kMillisecond);
 BENCHMARK(blocks<2>)->Name("blocks/2D")->Arg(200)->Arg(1000)->Unit(benchmark::kMillisecond);
