@@ -80,15 +80,6 @@ analysis:
     griffith: false
     fields_every: 100
     checkpoint_every: 500
-  dispersion:
-    path: [[0, 0], [1, 0], [1, 1]]
-    points: 30
-    zone: 16
-    time_step: 1.0e-8
-    integrator: newmark
-    phase_error: 0.01
-    polar: { wave_number: 0.5, directions: 36 }
-    spectrum: { run: out/pulse }
 output: { directory: out/plate, fields: [displacement, velocity, damage, strain, stress, energy] }
 """,
     "bar": """
@@ -108,7 +99,21 @@ analysis: { modal: { range: [0, 5000] }, static: , transient: { method: newmark,
 body: { dimension: 3, particles: { grid: { lower: [0, 0, 0], upper: [1, 1, 1], spacing: 0.1 } }, horizon: { ratio: 2 },
         precracks: [ { polygon: [[0, 0, 0.5], [0.5, 0, 0.5], [0.5, 1, 0.5]] } ] }
 material: { youngs_modulus: 68.0e+9, density: 2700 }
-analysis: { modal: , dispersion: , quasistatic: { griffith: true }, transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
+analysis: { modal: , quasistatic: { griffith: true }, transient: { method: hht, alpha: -0.05, dt: auto, end: 1, solver: factor } }
+""",
+    "waves": """
+body: { dimension: 2, particles: { grid: { lower: [0, 0], upper: [1, 1], spacing: 0.1 } }, horizon: { ratio: 2 } }
+material: { youngs_modulus: 68.0e+9, density: 2700 }
+analysis:
+  dispersion:
+    path: [[0, 0], [1, 0], [1, 1]]
+    points: 30
+    zone: 16
+    time_step: 1.0e-8
+    integrator: newmark
+    phase_error: 0.01
+    polar: { wave_number: 0.5, directions: 36 }
+    spectrum: { run: out/pulse }
 """,
     "shells": """
 body: { dimension: 2, particles: { grid: { lower: [0, 0], upper: [1, 1], spacing: 0.1 } }, horizon: { ratio: 2 },
