@@ -155,12 +155,12 @@ TEST(NegativeMaterial, UnstableModesAreFoundCountedAndNamed) {
               ThrowsMessage<Error>(HasSubstr("a material that resists every motion")));
 }
 
-struct Run {
+struct Waves {
   TransientResult result;
   double imbalance = 0.0;
 };
 
-Run run(const Model& model, TransientOptions options) {
+Waves waves_of(const Model& model, TransientOptions options) {
   Body<2> body = build_body<2>(model);
   InitialState initial;
   initial.displacement.resize(static_cast<Eigen::Index>(body.count()) * 2);
@@ -169,7 +169,7 @@ Run run(const Model& model, TransientOptions options) {
     initial.displacement.segment<2>(2 * static_cast<Eigen::Index>(i)) =
         1e-3 * std::exp(-r.squaredNorm() / 6.0) * Point<2>(1.0, 0.5);
   }
-  Run r;
+  Waves r;
   double scale = 0.0;
   TransientObserver<2> observer;
   observer.history = [&](const HistoryRow& row) {
@@ -186,20 +186,20 @@ TEST(NegativeMaterial, WavesKeepTheirEnergy) {
   const Model m = optimised_plate(18, 14);
   TransientOptions options;
   options.end = 20.0;
-  const Run stencil = run(m, options);
+  const Waves stencil = waves_of(m, options);
   EXPECT_EQ(stencil.result.plan.form, "stencil");
   EXPECT_TRUE(stencil.result.plan.warnings.empty());
   EXPECT_LT(stencil.imbalance, 1e-12);
   for (const auto form : {StiffnessForm::bonds, StiffnessForm::blocks}) {
     options.form = form;
-    const Run other = run(m, options);
+    const Waves other = waves_of(m, options);
     EXPECT_LT(other.imbalance, 1e-12);
     EXPECT_LT((other.result.displacement - stencil.result.displacement).cwiseAbs().maxCoeff(), 1e-13);
   }
   options.form = StiffnessForm::automatic;
   options.method = TimeMethod::newmark;
   options.dt = 0.1;
-  EXPECT_LT(run(m, options).imbalance, 1e-10);  // conjugate gradients or a factor, step by step
+  EXPECT_LT(waves_of(m, options).imbalance, 1e-10);  // conjugate gradients or a factor, step by step
 }
 
 /// Bonds that may break but do not: the forces of turning bonds give the same waves, and the plan warns.
@@ -207,15 +207,15 @@ TEST(NegativeMaterial, BreakableBondsMoveLikeTheOthersAndWarn) {
   const Model m = optimised_plate(18, 14);
   TransientOptions options;
   options.end = 10.0;
-  const Run whole = run(m, options);
+  const Waves whole = waves_of(m, options);
   options.critical_stretch = {0.5};
-  const Run breakable = run(m, options);
+  const Waves breakable = waves_of(m, options);
   EXPECT_THAT(breakable.result.plan.warnings, ElementsAre(HasSubstr("gains energy")));
   EXPECT_EQ(breakable.result.broken_bonds, 0);
   EXPECT_LT((whole.result.displacement - breakable.result.displacement).cwiseAbs().maxCoeff(), 1e-13);
   options.method = TimeMethod::newmark;
   options.dt = 0.1;
-  EXPECT_THAT([&] { (void)run(m, options); }, ThrowsMessage<Error>(HasSubstr("negative parts")));
+  EXPECT_THAT([&] { (void)waves_of(m, options); }, ThrowsMessage<Error>(HasSubstr("negative parts")));
 }
 
 /// Cracks grow the same way whether the factor follows the breaks (negative terms are added), is made anew
