@@ -22,8 +22,8 @@ Front front_of(const KernelWaves& kernel, const PointSource& source, double dt) 
   front.cells = source.cells;
   front.time = dt * std::round((peak + source.travelled / exact.shear_speed) / dt);
   front.dt = dt;
-  // The wavelet swells from a thousandth at a third of the time of its peak: pressure waves that left then
-  // have come back from the faces to here.
+  // The wavelet swells from a thousandth at a third of the time of its peak: pressure waves that left the
+  // images of the source then have come as far as here.
   front.reach = source.cells - exact.pressure_speed * (front.time - peak / 3.0);
 
   TransientOptions options;

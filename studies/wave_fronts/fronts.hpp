@@ -12,9 +12,9 @@ namespace perimode::studies {
 /// spacings long at its peak frequency; looked at when the peak of the shear front is `travelled` spacings
 /// out.
 struct PointSource {
-  int cells = 97;  ///< of the cube, odd
-  double wavelength = 6.0;
-  double travelled = 24.0;
+  int cells = 81;  ///< of the cube, odd
+  double wavelength = 8.0;
+  double travelled = 22.0;
 };
 
 /// The plane y = 0 through the source.
@@ -28,7 +28,7 @@ struct Front {
   std::vector<Point<3>> displacement;
   std::vector<Point<3>> exact;  ///< Stokes' solution
   double error = 0.0;           ///< relative L2 error over distances of one wavelength to `reach`
-  double reach = 0.0;           ///< beyond it reflections from the faces may be
+  double reach = 0.0;           ///< beyond it are waves of the images of the source
 };
 
 /// Steps the cube by central differences of dt (s), the same for all kernels.

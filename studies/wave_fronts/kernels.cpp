@@ -47,7 +47,7 @@ KernelWaves examine(std::string name, int ratio, const Micromodulus& kernel) {
   waves.name = std::move(name);
   waves.ratio = ratio;
   waves.kernel = kernel;
-  waves.lattice = make_lattice<3>(solid(ratio, 3, kernel));
+  waves.lattice = make_lattice<3>(solid(ratio, 7, kernel));
   waves.zone = survey_zone<3>(waves.lattice, 33);
   waves.error = contour_error<3>(waves.lattice);
   waves.long_wave_error = long_wave_error(waves.lattice);
@@ -63,22 +63,31 @@ Model solid(int ratio, int cells, const Micromodulus& kernel) {
   const double half = 0.5 * cells;
   model.particles = GridSpec{.lower = {-half, -half, -half}, .upper = {half, half, half}, .spacing = 1.0};
   model.horizon = {HorizonSpec::Rule::ratio, static_cast<double>(ratio), {}};
+  model.periodic = {true, true, true};
   model.material.youngs_modulus = 1.0;
   model.material.density = 1.0;
   model.material.micromodulus = kernel;
   return model;
 }
 
-KernelPair kernel_pair(int ratio) {
-  KernelPair pair;
-  pair.original = examine("original", ratio, {});
-  pair.optimum = optimise_micromodulus<3>(pair.original.lattice);
-  Micromodulus kernel;
-  kernel.kernel = Kernel::shells;
-  const auto& shells = pair.original.lattice.family.shell;
-  for (std::size_t s = 0; s < shells.size(); ++s) kernel.shells.push_back({shells[s], pair.optimum.alpha[s]});
-  pair.optimised = examine("optimised", ratio, kernel);
-  return pair;
+Kernels kernels_of(int ratio) {
+  Kernels kernels;
+  kernels.original = examine("original", ratio, {});
+  const Lattice<3>& lattice = kernels.original.lattice;
+  const auto optimised = [&](const char* name, ErrorDomain domain, OptimisedMicromodulus& optimum) {
+    OptimiseOptions options;
+    options.domain = domain;
+    optimum = optimise_micromodulus<3>(lattice, options);
+    Micromodulus kernel;
+    kernel.kernel = Kernel::shells;
+    kernel.shells.reserve(optimum.alpha.size());
+    for (std::size_t s = 0; s < optimum.alpha.size(); ++s)
+      kernel.shells.push_back({lattice.family.shell[s], optimum.alpha[s]});
+    return examine(name, ratio, kernel);
+  };
+  kernels.contour = optimised("contour", ErrorDomain::contour, kernels.on_contour);
+  kernels.zone = optimised("zone", ErrorDomain::zone, kernels.on_zone);
+  return kernels;
 }
 
 }  // namespace perimode::studies

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
+#include <array>
+#include <string>
 
 #include "perimode/assembly/model.hpp"
 #include "perimode/dispersion/optimise.hpp"
@@ -10,15 +11,15 @@
 namespace perimode::studies {
 
 // A solid of unit spacing, Young's modulus and density, nu = 1/4, horizon of m spacings, no volume
-// correction: its constant kernel, and the one whose waves are those of classical elasticity as nearly as its
-// orbits allow.
+// correction: its constant kernel, and the two whose waves are those of classical elasticity as nearly as its
+// orbits allow, along the contour of the irreducible zone and over the whole zone.
 
-/// A cube of `cells` per side around the origin, all faces free.
+/// A cube of `cells` per side around the origin, periodic along every axis.
 [[nodiscard]] Model solid(int ratio, int cells, const Micromodulus& kernel = {});
 
 /// A kernel and what its waves are like.
 struct KernelWaves {
-  std::string name;  ///< "original", "optimised"
+  std::string name;  ///< "original", "contour", "zone"
   int ratio = 0;     ///< m
   Micromodulus kernel;
   Lattice<3> lattice;
@@ -29,11 +30,11 @@ struct KernelWaves {
   std::array<double, 2> band = {};
 };
 
-/// The original and the optimised kernel of horizon m, with the optimum itself.
-struct KernelPair {
-  KernelWaves original, optimised;
-  OptimisedMicromodulus optimum;
+/// The original kernel of horizon m and its optima.
+struct Kernels {
+  KernelWaves original, contour, zone;
+  OptimisedMicromodulus on_contour, on_zone;
 };
-[[nodiscard]] KernelPair kernel_pair(int ratio);
+[[nodiscard]] Kernels kernels_of(int ratio);
 
 }  // namespace perimode::studies

@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
 
-INK, ORIGINAL, OPTIMISED = "#22303c", "#c8553d", "#3d6f8e"
+INK, ORIGINAL, CONTOUR, ZONE = "#22303c", "#c8553d", "#d9a441", "#3d6f8e"
 CORNERS = ["O", "X", "M", "R", "O"]
 ALPHA, BETA = np.sqrt(1.2), np.sqrt(0.4)
 
@@ -24,7 +24,7 @@ def kernels(out):
     table = rows(out / "dispersion.csv")
     figure, axes = plt.subplots(1, 2, figsize=(14, 5.2), layout="constrained", sharey=True)
     for ax, m in zip(axes, ("2", "3")):
-        for name, colour in (("original", ORIGINAL), ("optimised", OPTIMISED)):
+        for name, colour in (("original", ORIGINAL), ("contour", CONTOUR), ("zone", ZONE)):
             mine = [row for row in table if row["m"] == m and row["kernel"] == name]
             path, k = (np.array([float(row[c]) for row in mine]) for c in ("path", "k"))
             for branch, style in (("P", "-"), ("S1", "--"), ("S2", "--")):
@@ -54,10 +54,10 @@ def image(table, names):
 
 
 def fronts(out, m):
-    tables = {name: rows(out / f"front_{m}_{name}.csv") for name in ("original", "optimised")}
+    tables = {name: rows(out / f"front_{m}_{name}.csv") for name in ("original", "zone")}
     shown = [(f"original, m = {m}", *image(tables["original"], ("u_x", "u_z"))),
-             (f"optimised, m = {m}", *image(tables["optimised"], ("u_x", "u_z"))),
-             ("Stokes' solution", *image(tables["optimised"], ("exact_x", "exact_z")))]
+             (f"optimised, m = {m}", *image(tables["zone"], ("u_x", "u_z"))),
+             ("Stokes' solution", *image(tables["zone"], ("exact_x", "exact_z")))]
     exact = shown[2][1]
     centre = exact.shape[0] // 2
     away = np.hypot(*np.meshgrid(*2 * [np.arange(exact.shape[0]) - centre]))
