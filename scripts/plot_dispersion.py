@@ -36,7 +36,7 @@ def along_path(table, branch):
 
 
 def draw_spectrum(axes, folder):
-    """The grey map of all branches, on a logarithmic scale of three decades."""
+    """The grey map of all branches, each wave by its own largest amplitude, over two decades."""
     table = columns(folder / "spectrum.csv")
     branches = list(dict.fromkeys(table["branch"]))
     length = np.unique(table["path_length"])
@@ -46,8 +46,9 @@ def draw_spectrum(axes, folder):
     total = np.zeros((len(length), len(omega)))
     for branch in branches:
         total = np.maximum(total, table["amplitude"][table["branch"] == branch].reshape(len(length), len(omega)))
-    shade = np.log10(np.maximum(total / total.max(), 1e-3))
-    axes.pcolormesh(length, omega, shade.T, cmap="Greys", shading="nearest", vmin=-3, vmax=0, rasterized=True)
+    largest = np.maximum(total.max(axis=1, keepdims=True), 1e-4 * total.max())  # quieter waves stay pale
+    shade = np.log10(np.maximum(total / largest, 1e-2))
+    axes.pcolormesh(length, omega, shade.T, cmap="Greys", shading="nearest", vmin=-2, vmax=0.5, rasterized=True)
 
 
 def draw_curves(axes, folder):

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -21,9 +22,15 @@ namespace {
 /// Beside the loudest branch a wave below this is silent.
 constexpr double silent = 1e-6;
 
+struct Heard {
+  int waves = 0;
+  double largest_deviation = 0.0;  ///< of the ridge from the curve, rad/s
+};
+
 template <int Dim>
-void add_ridge(Table& table, const GridWaves<Dim>& waves, const std::vector<PlaneWaves<Dim>>& exact,
-               int branch, const std::vector<RidgePoint>& ridge, double loudest, const DispersionSpec& spec) {
+void add_ridge(Table& table, Heard& all, const GridWaves<Dim>& waves,
+               const std::vector<PlaneWaves<Dim>>& exact, int branch, const std::vector<RidgePoint>& ridge,
+               double loudest, const DispersionSpec& spec) {
   for (std::size_t w = 0; w < waves.k.size(); ++w) {
     std::vector<TableCell> row(waves.k[w].data(), waves.k[w].data() + Dim);
     const double omega = exact[w].angular_frequency[static_cast<std::size_t>(branch)];
@@ -33,7 +40,12 @@ void add_ridge(Table& table, const GridWaves<Dim>& waves, const std::vector<Plan
     row.emplace_back(heard ? ridge[w].omega : std::numeric_limits<double>::quiet_NaN());
     row.emplace_back(ridge[w].amplitude);
     row.emplace_back(omega);
-    if (spec.time_step) row.emplace_back(stepped_frequency(omega, spec));
+    const double expected = spec.time_step ? stepped_frequency(omega, spec) : omega;
+    if (spec.time_step) row.emplace_back(expected);
+    if (heard && waves.k[w].norm() > 0.0) {
+      ++all.waves;
+      all.largest_deviation = std::max(all.largest_deviation, std::abs(ridge[w].omega - expected));
+    }
     table.rows.push_back(std::move(row));
   }
 }
@@ -80,11 +92,12 @@ nlohmann::ordered_json write_spectrum(const std::filesystem::path& folder, const
        {"path_length", "branch", "angular_frequency", "amplitude", "symbol_angular_frequency"})
     ridges.columns.emplace_back(name);
   if (spec.time_step) ridges.columns.emplace_back("stepped_angular_frequency");
+  Heard heard;
   Table map;
   map.columns = {"branch", "path_length", "angular_frequency", "amplitude"};
   for (int b = 0; b < Dim; ++b) {
     const Spectrum& spectrum = spectra[static_cast<std::size_t>(b)];
-    add_ridge(ridges, waves, exact, b, spectrum_ridge(spectrum), loudest, spec);
+    add_ridge(ridges, heard, waves, exact, b, spectrum_ridge(spectrum), loudest, spec);
     add_spectrum(map, branch_name(b, Dim), spectrum);
   }
   write_csv(folder / "ridge.csv", ridges);
@@ -94,7 +107,18 @@ nlohmann::ordered_json write_spectrum(const std::filesystem::path& folder, const
           {"instants", any.instants},
           {"time_step", any.time_step},
           {"resolution", any.resolution},
-          {"nyquist", any.nyquist}};
+          {"nyquist", any.nyquist},
+          {"heard", heard.waves},
+          {"largest_deviation", heard.largest_deviation}};
+}
+
+std::string spectrum_text(const nlohmann::ordered_json& spectrum) {
+  return fmt::format(
+      "spectrum         {} waves of the run on the path, {} instants of {:.6g} s, resolution {:.4g} rad/s\n"
+      "                 {} ridges heard, off the curve by at most {:.4g} rad/s\n",
+      spectrum["waves"].get<int>(), spectrum["instants"].get<int>(), spectrum["time_step"].get<double>(),
+      spectrum["resolution"].get<double>(), spectrum["heard"].get<int>(),
+      spectrum["largest_deviation"].get<double>());
 }
 
 template nlohmann::ordered_json write_spectrum<1>(const std::filesystem::path&, const Lattice<1>&,

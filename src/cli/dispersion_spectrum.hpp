@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "perimode/dispersion/lattice.hpp"
 #include "perimode/io/case.hpp"
@@ -14,5 +15,8 @@ namespace perimode::cli {
 template <int Dim>
 [[nodiscard]] nlohmann::ordered_json write_spectrum(const std::filesystem::path& folder,
                                                     const Lattice<Dim>& lattice, const Case& input);
+
+/// What the report says of it.
+[[nodiscard]] std::string spectrum_text(const nlohmann::ordered_json& spectrum);
 
 }  // namespace perimode::cli

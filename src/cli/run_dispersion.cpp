@@ -170,7 +170,7 @@ int run_lattice(const Case& input, const Arguments& arguments, Console& console)
     summary["certificate"] = certificate_json(*optimised);
     summary["optimised"] = optimised_json(*optimised, spec);
   }
-  if (spec.spectrum) summary["spectrum"] = std::move(spectrum);
+  if (spec.spectrum) summary["spectrum"] = spectrum;
   add_run(summary, {{"waves", seconds_waves},
                     {"optimise", seconds_optimise},
                     {"write", seconds_since(writing)},
@@ -179,6 +179,7 @@ int run_lattice(const Case& input, const Arguments& arguments, Console& console)
   console.clear_progress();
 
   fmt::print("{}{}", waves_text(lattice, report, spec), left_aside(input.model));
+  if (spec.spectrum) fmt::print("{}", spectrum_text(spectrum));
   if (optimised) {
     fmt::print("{}", optimised_text(lattice, *optimised, spec,
                                     seen_from_case(folder.target() / "coefficients.csv", input)));

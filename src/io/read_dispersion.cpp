@@ -35,7 +35,7 @@ int read_zone(const Cursor& cursor, int dimension) {
   const int points = cursor.integer(2, "101");
   if (std::pow(points, dimension) > most) {
     cursor.complain(
-        fmt::format("at most {:.0f} points per axis", std::floor(std::pow(most, 1.0 / dimension))),
+        fmt::format("at most {:.0f} points per axis", std::floor(std::pow(most, 1.0 / dimension) + 1e-6)),
         "for example 101");
   }
   return points;

@@ -238,7 +238,11 @@ const BadCase optimise[] = {
     {"weights_negative", "solid", "analysis", PERIMODE_OPTIMISE("weights: [1, ^-1]"), {"weights.1"}},
     {"weights_zero", "solid", "analysis", PERIMODE_OPTIMISE("weights: ^[0, 0]"), {"a weight > 0"}},
     {"fit_negative", "solid", "analysis", PERIMODE_OPTIMISE("fit: ^-1"), {"a whole number >= 0"}},
-    {"correction", "plate", "analysis", PERIMODE_DISPERSION("optimise: ^{}"), {"volume_correction: none", "got linear"}},
+    {"correction",
+     "plate",
+     "analysis",
+     PERIMODE_DISPERSION("optimise: ^{}"),
+     {"volume_correction: none", "got linear"}},
 };
 INSTANTIATE_TEST_SUITE_P(Optimise, BadDispersionTest, testing::ValuesIn(optimise), test::name_of);
 
