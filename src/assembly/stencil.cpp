@@ -118,22 +118,25 @@ Fetch fetch_layer(const Stencil<Dim>& s, Index layer, const double* x) {
 template <int Dim, class Emit>
 void apply_layer(const Stencil<Dim>& s, Index layer, const double* here, Fetch fetch,
                  typename Stencil<Dim>::Work& work, const Emit& emit) {
-  StencilPairs pairs{s.pair.data(), {}, s.bonds->family.size() - 1};
+  StencilPairs pairs{s.pair.data(), {}, s.some_negative, {}, s.bonds->family.size() - 1};
   std::copy(s.pair_start.begin(), s.pair_start.end(), pairs.start);
   for (Index r = s.layer_run[layer]; r < s.layer_run[layer + 1]; ++r) {
     const ParticleRun& of = s.run[r];
+    if (s.some_negative) {
+      pairs.member = s.signed_pair.data() + static_cast<std::size_t>(of.set) * s.pair.size();
+      std::copy_n(s.negative.begin() + static_cast<std::ptrdiff_t>(of.set) * StencilPairs::patterns,
+                  StencilPairs::patterns, pairs.negative);
+    }
     for (Index begin = 0; begin < of.count; begin += stencil_piece) {
       const Index particle = of.particle + begin;
-      const StencilRun run{
-          .at = work.at.data(),
-          .here = here,
-          .stride = s.stride,
-          .b = s.b.data() + static_cast<std::size_t>(of.set) * s.pair.size() * Dim,
-          .f = s.f.empty() ? nullptr : s.f.data() + static_cast<std::size_t>(of.set) * s.pair.size() * Dim,
-          .cell = of.cell + begin,
-          .count = std::min(stencil_piece, of.count - begin),
-          .out = work.out.data(),
-          .out_stride = stencil_piece + stencil_slack};
+      const StencilRun run{.at = work.at.data(),
+                           .here = here,
+                           .stride = s.stride,
+                           .b = s.b.data() + static_cast<std::size_t>(of.set) * s.pair.size() * Dim,
+                           .cell = of.cell + begin,
+                           .count = std::min(stencil_piece, of.count - begin),
+                           .out = work.out.data(),
+                           .out_stride = stencil_piece + stencil_slack};
       fetch.next(static_cast<std::ptrdiff_t>(run.count) * Dim);
       if (of.families == Families::whole) {
         whole_families<Dim>(pairs, run);
@@ -258,8 +261,9 @@ void Stencil<Dim>::apply(const double* x, const std::function<void(const RowPiec
 
 template <int Dim>
 double Stencil<Dim>::bytes() const {
-  double sum = sizeof(*this) + bytes_of(pair) + bytes_of(pair_start) + bytes_of(b) + bytes_of(f) +
-               bytes_of(factor) + bytes_of(run) + bytes_of(layer_run) + bytes_of(fill) + bytes_of(layer_fill);
+  double sum = sizeof(*this) + bytes_of(pair) + bytes_of(pair_start) + bytes_of(b) + bytes_of(signed_pair) +
+               bytes_of(negative) + bytes_of(factor) + bytes_of(run) + bytes_of(layer_run) + bytes_of(fill) +
+               bytes_of(layer_fill);
   for (const auto& w : work)
     sum += bytes_of(w.window) + bytes_of(w.beyond) + bytes_of(w.layer) + bytes_of(w.at) + bytes_of(w.lanes) +
            bytes_of(w.out) + bytes_of(w.rows);

@@ -52,8 +52,10 @@ struct Stencil {
   std::vector<int> pair;                         ///< family member of each pair (StencilPairs)
   std::vector<int> pair_start;                   ///< per pattern of components
   std::vector<double> b;                         ///< sqrt|k_b| n per set, pair and component
-  std::vector<double> f;                         ///< the same with the sign of k_b; empty: none is negative
-  bool some_negative = false;                    ///< softening(body)
+  bool some_negative = false;                    ///< softening(body); then the pairs of a set are in
+                                                 ///< an order of its own, negative ones last in a pattern
+  std::vector<int> signed_pair;                  ///< as `pair`, per set
+  std::vector<int> negative;                     ///< StencilPairs::negative, per set
   std::map<std::pair<int, double>, Index> sets;  ///< by material and calibration factor
   std::vector<double> factor;                    ///< calibration factors over the padded grid; empty: all 1
   std::vector<ParticleRun> run;

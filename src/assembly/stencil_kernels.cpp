@@ -14,15 +14,15 @@ using Bits __attribute__((vector_size(width * sizeof(double)), aligned(8), may_a
 static_assert(stencil_slack == width);
 
 /// Adds the pairs whose offsets have the components of Pattern to y, for Groups * width particles.
-template <int Dim, int Pattern, int Groups, bool Signed>
-[[gnu::always_inline]] inline void add_whole_pairs(const StencilPairs& pairs, const StencilRun& run,
-                                                   std::ptrdiff_t t, const Vector (&here)[Dim][Groups],
+template <int Dim, int Pattern, int Groups, bool Negative>
+[[gnu::always_inline]] inline void add_whole_pairs(const StencilPairs& pairs, int begin, int end,
+                                                   const StencilRun& run, std::ptrdiff_t t,
+                                                   const Vector (&here)[Dim][Groups],
                                                    Vector (&y)[Dim][Groups]) {
-  for (int p = pairs.start[Pattern]; p < pairs.start[Pattern + 1]; ++p) {
+  for (int p = begin; p < end; ++p) {
     const double* up = run.at[pairs.member[p]] + run.cell + t;
     const double* um = run.at[pairs.last - pairs.member[p]] + run.cell + t;
     const double* b = run.b + p * Dim;
-    const double* f = (Signed ? run.f : run.b) + p * Dim;
     Vector s[Groups] = {};
     for (int a = 0; a < Dim; ++a) {
       if ((Pattern >> a & 1) == 0) continue;
@@ -34,9 +34,25 @@ template <int Dim, int Pattern, int Groups, bool Signed>
     }
     for (int a = 0; a < Dim; ++a) {
       if ((Pattern >> a & 1) == 0) continue;
-      for (int g = 0; g < Groups; ++g) y[a][g] += f[a] * s[g];
+      for (int g = 0; g < Groups; ++g) {
+        if constexpr (Negative)
+          y[a][g] -= b[a] * s[g];
+        else
+          y[a][g] += b[a] * s[g];
+      }
     }
   }
+}
+
+/// The pairs of a pattern, those of negative k_b after the others.
+template <int Dim, int Pattern, int Groups, bool Signed>
+[[gnu::always_inline]] inline void add_whole_pattern(const StencilPairs& pairs, const StencilRun& run,
+                                                     std::ptrdiff_t t, const Vector (&here)[Dim][Groups],
+                                                     Vector (&y)[Dim][Groups]) {
+  const int first = pairs.start[Pattern], last = pairs.start[Pattern + 1];
+  const int negative = Signed ? pairs.negative[Pattern] : last;
+  add_whole_pairs<Dim, Pattern, Groups, false>(pairs, first, negative, run, t, here, y);
+  if constexpr (Signed) add_whole_pairs<Dim, Pattern, Groups, true>(pairs, negative, last, run, t, here, y);
 }
 
 template <int Dim, int Groups, bool Signed>
@@ -48,16 +64,16 @@ template <int Dim, int Groups, bool Signed>
     for (int g = 0; g < Groups; ++g)
       here[a][g] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t + g * width);
   }
-  add_whole_pairs<Dim, 1, Groups, Signed>(pairs, run, t, here, y);
+  add_whole_pattern<Dim, 1, Groups, Signed>(pairs, run, t, here, y);
   if constexpr (Dim > 1) {
-    add_whole_pairs<Dim, 2, Groups, Signed>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 3, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 2, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 3, Groups, Signed>(pairs, run, t, here, y);
   }
   if constexpr (Dim > 2) {
-    add_whole_pairs<Dim, 4, Groups, Signed>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 5, Groups, Signed>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 6, Groups, Signed>(pairs, run, t, here, y);
-    add_whole_pairs<Dim, 7, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 4, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 5, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 6, Groups, Signed>(pairs, run, t, here, y);
+    add_whole_pattern<Dim, 7, Groups, Signed>(pairs, run, t, here, y);
   }
   for (int a = 0; a < Dim; ++a) {
     for (int g = 0; g < Groups; ++g)
@@ -87,17 +103,16 @@ template <bool Factors>
   }
 }
 
-template <int Dim, int Pattern, bool Factors, bool Signed>
-[[gnu::always_inline]] inline void add_partial_pairs(const StencilPairs& pairs, const StencilRun& run,
-                                                     const StencilBits& bits, std::ptrdiff_t t,
-                                                     const Vector (&here)[Dim], const Vector& half,
-                                                     Vector (&y)[Dim]) {
-  for (int p = pairs.start[Pattern]; p < pairs.start[Pattern + 1]; ++p) {
+template <int Dim, int Pattern, bool Factors, bool Negative>
+[[gnu::always_inline]] inline void add_partial_pairs(const StencilPairs& pairs, int begin, int end,
+                                                     const StencilRun& run, const StencilBits& bits,
+                                                     std::ptrdiff_t t, const Vector (&here)[Dim],
+                                                     const Vector& half, Vector (&y)[Dim]) {
+  for (int p = begin; p < end; ++p) {
     const int k = pairs.member[p];
     const double* up = run.at[k] + run.cell + t;
     const double* um = run.at[pairs.last - k] + run.cell + t;
     const double* b = run.b + p * Dim;
-    const double* f = (Signed ? run.f : run.b) + p * Dim;
     Vector plus, minus;
     bond_weights<Factors>(bits, k, t, half, plus);
     bond_weights<Factors>(bits, pairs.last - k, t, half, minus);
@@ -108,9 +123,25 @@ template <int Dim, int Pattern, bool Factors, bool Signed>
                    minus * (here[a] - *reinterpret_cast<const Vector*>(um + a * run.stride)));
     }
     for (int a = 0; a < Dim; ++a) {
-      if ((Pattern >> a & 1) != 0) y[a] += f[a] * s;
+      if ((Pattern >> a & 1) == 0) continue;
+      if constexpr (Negative)
+        y[a] -= b[a] * s;
+      else
+        y[a] += b[a] * s;
     }
   }
+}
+
+template <int Dim, int Pattern, bool Factors, bool Signed>
+[[gnu::always_inline]] inline void add_partial_pattern(const StencilPairs& pairs, const StencilRun& run,
+                                                       const StencilBits& bits, std::ptrdiff_t t,
+                                                       const Vector (&here)[Dim], const Vector& half,
+                                                       Vector (&y)[Dim]) {
+  const int first = pairs.start[Pattern], last = pairs.start[Pattern + 1];
+  const int negative = Signed ? pairs.negative[Pattern] : last;
+  add_partial_pairs<Dim, Pattern, Factors, false>(pairs, first, negative, run, bits, t, here, half, y);
+  if constexpr (Signed)
+    add_partial_pairs<Dim, Pattern, Factors, true>(pairs, negative, last, run, bits, t, here, half, y);
 }
 
 template <int Dim, bool Factors, bool Signed>
@@ -130,16 +161,16 @@ template <int Dim, bool Factors, bool Signed>
       here[a] = *reinterpret_cast<const Vector*>(run.here + run.cell + a * run.stride + t);
     Vector half = Vector{} + 1.0;
     if constexpr (Factors) half = 0.5 * *reinterpret_cast<const Vector*>(bits.factor + t);
-    add_partial_pairs<Dim, 1, Factors, Signed>(pairs, run, bits, t, here, half, y);
+    add_partial_pattern<Dim, 1, Factors, Signed>(pairs, run, bits, t, here, half, y);
     if constexpr (Dim > 1) {
-      add_partial_pairs<Dim, 2, Factors, Signed>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 3, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 2, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 3, Factors, Signed>(pairs, run, bits, t, here, half, y);
     }
     if constexpr (Dim > 2) {
-      add_partial_pairs<Dim, 4, Factors, Signed>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 5, Factors, Signed>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 6, Factors, Signed>(pairs, run, bits, t, here, half, y);
-      add_partial_pairs<Dim, 7, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 4, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 5, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 6, Factors, Signed>(pairs, run, bits, t, here, half, y);
+      add_partial_pattern<Dim, 7, Factors, Signed>(pairs, run, bits, t, here, half, y);
     }
     for (int a = 0; a < Dim; ++a) *reinterpret_cast<Vector*>(run.out + a * run.out_stride + t) = y[a];
   }
@@ -208,11 +239,11 @@ PERIMODE_EVERY_PROCESSOR void together_3(const double* from, Index n, std::ptrdi
 #define PERIMODE_FAMILIES(D)                                                                            \
   template <>                                                                                           \
   void whole_families<D>(const StencilPairs& pairs, const StencilRun& run) {                            \
-    run.f ? signed_whole_##D(pairs, run) : whole_##D(pairs, run);                                       \
+    pairs.some_negative ? signed_whole_##D(pairs, run) : whole_##D(pairs, run);                         \
   }                                                                                                     \
   template <>                                                                                           \
   void partial_families<D>(const StencilPairs& pairs, const StencilRun& run, const StencilBits& bits) { \
-    run.f ? signed_partial_##D(pairs, run, bits) : partial_##D(pairs, run, bits);                       \
+    pairs.some_negative ? signed_partial_##D(pairs, run, bits) : partial_##D(pairs, run, bits);         \
   }
 PERIMODE_FAMILIES(1)
 PERIMODE_FAMILIES(2)

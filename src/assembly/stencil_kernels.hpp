@@ -19,6 +19,8 @@ struct StencilPairs {
   static constexpr int patterns = 8;  ///< bit a set: component a of the offset is not zero
   const int* member;                  ///< the pair is member[p] and last - member[p]
   int start[patterns + 1];            ///< pairs of each pattern
+  bool some_negative;                 ///< some k_b are negative: within each pattern their pairs come last,
+  int negative[patterns];             ///< from here on
   int last;                           ///< members - 1
 };
 
@@ -29,10 +31,9 @@ struct StencilRun {
   const double* here;       ///< x component at the layer's cell 0
   std::ptrdiff_t stride;
   const double* b;
-  const double* f;  ///< sign of k_b times b; null: no k_b is negative
-  Index cell;       ///< of particle 0 of the run in its layer
-  Index count;      ///< particles
-  double* out;      ///< K u; component a at a * out_stride
+  Index cell;   ///< of particle 0 of the run in its layer
+  Index count;  ///< particles
+  double* out;  ///< K u; component a at a * out_stride
   std::ptrdiff_t out_stride;
 };
 
@@ -46,7 +47,7 @@ struct StencilBits {
   const Index* step;     ///< cells to each family member
 };
 
-/// K u of particles with whole families: sum over pairs of f (b . ((u_i - u_+) + (u_i - u_-))), f = +-b.
+/// K u of particles with whole families: sum over pairs of +-b (b . ((u_i - u_+) + (u_i - u_-))).
 /// Differences first: they are exact where the displacement is large and smooth, as in slender bodies.
 template <int Dim>
 void whole_families(const StencilPairs& pairs, const StencilRun& run);

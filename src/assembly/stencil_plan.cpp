@@ -91,20 +91,34 @@ void add_pairs(Stencil<Dim>& s) {
   s.pair_start.push_back(static_cast<int>(s.pair.size()));
 }
 
+/// The pairs of a block with those of negative k_b last within every pattern.
+template <int Dim>
+std::vector<int> add_signed_pairs(Stencil<Dim>& s, int block) {
+  const double* kernel =
+      s.body->constants.kernel.data() + static_cast<std::size_t>(block) * s.bonds->family.offset.size();
+  std::vector<int> pair = s.pair;
+  for (int pattern = 0; pattern < StencilPairs::patterns; ++pattern) {
+    const auto at = std::stable_partition(pair.begin() + s.pair_start[static_cast<std::size_t>(pattern)],
+                                          pair.begin() + s.pair_start[static_cast<std::size_t>(pattern) + 1],
+                                          [&](int k) { return !(kernel[k] < 0.0); });
+    s.negative.push_back(static_cast<int>(at - pair.begin()));
+  }
+  s.signed_pair.insert(s.signed_pair.end(), pair.begin(), pair.end());
+  return pair;
+}
+
 /// b = sqrt|k_b| n of the family of a block, all calibration factors equal.
 template <int Dim>
 Index add_set(Stencil<Dim>& s, int block, double factor) {
   const Family<Dim>& family = s.bonds->family;
   const double volume = s.body->particles.volume[0];
   const auto number = static_cast<Index>(s.b.size() / (s.pair.size() * Dim));
-  for (const int k : s.pair) {
+  const std::vector<int> pair = s.some_negative ? add_signed_pairs(s, block) : s.pair;
+  for (const int k : pair) {
     const double c = factor * s.body->constants.kernel[static_cast<std::size_t>(block) * family.size() + k];
     const double root = std::sqrt(std::abs(c) * family.weight[k] * (volume * volume) / family.length[k]);
-    for (int a = 0; a < Dim; ++a) {
-      const double b = root * (family.spacing * family.offset[k][a] / family.length[k]);
-      s.b.push_back(b);
-      if (s.some_negative) s.f.push_back(c < 0.0 ? -b : b);
-    }
+    for (int a = 0; a < Dim; ++a)
+      s.b.push_back(root * (family.spacing * family.offset[k][a] / family.length[k]));
   }
   return number;
 }
