@@ -95,7 +95,8 @@ template <int Dim>
 void warn(const OptimisedReport<Dim>& optimised, Console& console) {
   if (!optimised.lattice) return;
   if (optimised.report.survey.least_squared < 0.0)
-    console.warning("the optimised lattice is unstable: some of its waves grow; give a lower_bound");
+    console.warning(
+        "the optimised lattice is unstable: some of its waves grow; give domain: zone, or a lower_bound");
   if (optimised.fit && optimised.fitted_survey.least_squared < 0.0)
     console.warning("the lattice with the fitted influence function is unstable; fit more cosines");
   constexpr double much = 0.1;

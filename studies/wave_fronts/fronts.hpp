@@ -13,8 +13,8 @@ namespace perimode::studies {
 /// out.
 struct PointSource {
   int cells = 81;  ///< of the cube, odd
-  double wavelength = 8.0;
-  double travelled = 22.0;
+  double wavelength = 6.0;
+  double travelled = 20.0;
 };
 
 /// The plane y = 0 through the source.
