@@ -1,139 +1,41 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "perimode/io/run_fields.hpp"
 
-#include <exodusII.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <utility>
 
+#include "io/exodus_fields.hpp"
 #include "perimode/core/error.hpp"
 
 namespace perimode {
 namespace {
 
-constexpr std::size_t longest_name = 255;
-constexpr const char* how_to_write =
-    "run `perimode transient` with fields_every and output.fields: [displacement]";
+const ExodusFields::Role role = {
+    "a run", "displacements", "run `perimode transient` with fields_every and output.fields: [displacement]",
+    "run the same case"};
 
-/// The fields.exo of a result, open for reading.
-class FieldsOfRun {
- public:
-  FieldsOfRun(const std::filesystem::path& folder, Where where)
-      : file_(folder / "fields.exo"), where_(std::move(where)) {
-    if (!std::filesystem::is_directory(folder))
-      complain("the result folder of a transient run", fmt::format("no folder {}", folder.string()));
-    if (!std::filesystem::exists(file_))
-      complain("fields.exo in the result folder of a run", fmt::format("{} without one", folder.string()));
-    ex_opts(EX_DEFAULT);  // report errors by code, print nothing
-    int word = sizeof(double);
-    int stored = 0;
-    float version = 0.0F;
-    id_ = ex_open(file_.c_str(), EX_READ, &word, &stored, &version);
-    check(id_);
+/// The fields.exo of a result folder.
+std::filesystem::path fields_of_run(const std::filesystem::path& folder, const Where& where) {
+  std::filesystem::path file = folder / "fields.exo";
+  if (!std::filesystem::is_directory(folder)) {
+    invalid_input({"the result folder of a transient run", fmt::format("no folder {}", folder.string()),
+                   role.remedy, where});
   }
-  ~FieldsOfRun() {
-    if (id_ >= 0) (void)ex_close(id_);
+  if (!std::filesystem::exists(file)) {
+    invalid_input({"fields.exo in the result folder of a run", fmt::format("{} without one", folder.string()),
+                   role.remedy, where});
   }
-  FieldsOfRun(const FieldsOfRun&) = delete;
-  FieldsOfRun& operator=(const FieldsOfRun&) = delete;
-  FieldsOfRun(FieldsOfRun&&) = delete;
-  FieldsOfRun& operator=(FieldsOfRun&&) = delete;
-
-  [[nodiscard]] std::int64_t nodes() const {
-    ex_init_params init = {};
-    check(ex_get_init_ext(id_, &init));
-    if (init.num_dim != 3) complain("particles in x, y and z", fmt::format("{} axes", init.num_dim));
-    return init.num_nodes;
-  }
-
-  [[nodiscard]] std::array<std::vector<double>, 3> places(std::int64_t nodes) const {
-    std::array<std::vector<double>, 3> x;
-    for (auto& component : x) component.assign(static_cast<std::size_t>(nodes), 0.0);
-    check(ex_get_coord(id_, x[0].data(), x[1].data(), x[2].data()));
-    return x;
-  }
-
-  [[nodiscard]] std::vector<double> times() const {
-    const std::int64_t steps = ex_inquire_int(id_, EX_INQ_TIME);
-    check(static_cast<int>(std::min<std::int64_t>(steps, 0)));
-    std::vector<double> result(static_cast<std::size_t>(steps));
-    if (steps > 0) check(ex_get_all_times(id_, result.data()));
-    return result;
-  }
-
-  [[nodiscard]] int displacement(int axis) const {
-    int count = 0;
-    check(ex_get_variable_param(id_, EX_NODAL, &count));
-    check(ex_set_max_name_length(id_, longest_name));
-    const std::string name = std::string("displacement_") + "xyz"[axis];
-    std::array<char, longest_name + 1> text = {};
-    for (int k = 1; k <= count; ++k) {
-      check(ex_get_variable_name(id_, EX_NODAL, k, text.data()));
-      if (name == text.data()) return k;
-    }
-    complain(fmt::format("displacements in {}", file_.string()), fmt::format("no variable {}", name));
-  }
-
-  void values(int variable, int step, std::vector<double>& result) const {
-    check(ex_get_var(id_, step, EX_NODAL, variable, 1, static_cast<std::int64_t>(result.size()),
-                     result.data()));
-  }
-
-  [[noreturn]] void complain(const std::string& expected, const std::string& got) const {
-    invalid_input({expected, got, how_to_write, where_});
-  }
-  [[nodiscard]] const Where& where() const { return where_; }
-  [[nodiscard]] std::string name() const { return file_.string(); }
-
- private:
-  void check(int code) const {
-    if (code >= 0) return;
-    complain(fmt::format("an Exodus file that can be read ({})", file_.string()),
-             fmt::format("error {}", code));
-  }
-
-  std::filesystem::path file_;
-  Where where_;
-  int id_ = -1;
-};
-
-template <int Dim>
-void require_particles(const FieldsOfRun& file, const Particles<Dim>& particles) {
-  const std::int64_t n = file.nodes();
-  if (n != particles.count()) {
-    invalid_input({fmt::format("a run of the {} particles of this body", particles.count()),
-                   fmt::format("{} particles in {}", n, file.name()), "run the same case", file.where()});
-  }
-  if (n == 0) return;
-  const std::array<std::vector<double>, 3> place = file.places(n);
-  Point<Dim> lower = particles.position[0], upper = lower;
-  for (const Point<Dim>& point : particles.position) {
-    lower = lower.cwiseMin(point);
-    upper = upper.cwiseMax(point);
-  }
-  const double close = 1e-9 * (upper - lower).maxCoeff();
-  for (std::size_t i = 0; i < particles.position.size(); ++i) {
-    for (int a = 0; a < Dim; ++a) {
-      const double x = place[static_cast<std::size_t>(a)][i];
-      if (std::abs(x - particles.position[i][a]) <= close) continue;
-      invalid_input({fmt::format("a run of this body, whose particle {} has {} = {:.17g} m", i + 1, "xyz"[a],
-                                 particles.position[i][a]),
-                     fmt::format("{:.17g} m in {}", x, file.name()), "run the same case", file.where()});
-    }
-  }
+  return file;
 }
 
-/// Calls `frame` at the first `steps` steps.
+/// Calls `frame` at the steps of these times.
 template <int Dim>
-void visit(const FieldsOfRun& file, const Particles<Dim>& particles, const std::vector<double>& times,
+void visit(const ExodusFields& file, const Particles<Dim>& particles, const std::vector<double>& times,
            const std::function<void(double, const Eigen::VectorXd&)>& frame) {
-  std::array<int, Dim> variable;
-  for (int a = 0; a < Dim; ++a) variable[static_cast<std::size_t>(a)] = file.displacement(a);
+  const std::vector<int> variable = file.displacements(Dim);
   std::vector<double> component(static_cast<std::size_t>(particles.count()));
   Eigen::VectorXd u(static_cast<Eigen::Index>(component.size()) * Dim);
   for (std::size_t n = 0; n < times.size(); ++n) {
@@ -147,7 +49,7 @@ void visit(const FieldsOfRun& file, const Particles<Dim>& particles, const std::
 }
 
 /// The times without a last one that comes early. Throws where the others are not equally spaced.
-std::vector<double> even_times(std::vector<double> times, const FieldsOfRun& file) {
+std::vector<double> even_times(std::vector<double> times, const ExodusFields& file) {
   const auto too_few = [&](std::size_t count) {
     if (count < 4)
       file.complain(fmt::format("4 steps or more at equal times in {}", file.name()),
@@ -199,8 +101,8 @@ template <int Dim>
 void for_each_run_frame(const std::filesystem::path& folder, const Particles<Dim>& particles,
                         const Where& where,
                         const std::function<void(double, const Eigen::VectorXd&)>& frame) {
-  const FieldsOfRun file(folder, where);
-  require_particles(file, particles);
+  const ExodusFields file(fields_of_run(folder, where), role, where);
+  file.require(particles);
   visit<Dim>(file, particles, file.times(), frame);
 }
 
@@ -208,8 +110,8 @@ template <int Dim>
 WaveRecorder<Dim> record_run(const std::filesystem::path& folder, const Model& model,
                              const std::vector<Point<Dim>>& corners, const Where& where) {
   const Particles<Dim> particles = periodic_grid<Dim>(model, where);
-  const FieldsOfRun file(folder, where);
-  require_particles(file, particles);
+  const ExodusFields file(fields_of_run(folder, where), role, where);
+  file.require(particles);
   const std::vector<double> times = even_times(file.times(), file);
   try {
     WaveRecorder<Dim> record(*particles.grid, waves_on_path(*particles.grid, corners), times.size());
