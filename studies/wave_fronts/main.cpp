@@ -105,7 +105,7 @@ int main(int argc, char** argv) {
   try {
     const std::filesystem::path out = words.empty() ? "" : words[1];
     if (!out.empty()) std::filesystem::create_directories(out);
-    const PointSource source = coarse ? PointSource{49, 6.0, 11.0} : PointSource{};
+    const PointSource source = coarse ? PointSource{41, 6.0, 10.0} : PointSource{};
     Table curves;
     curves.columns = {"m", "kernel", "path", "k", "P", "S1", "S2"};
     std::vector<std::string> wrong;
