@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "dispersion/branches.hpp"
 #include "perimode/core/error.hpp"
 
 namespace perimode {
@@ -80,15 +80,15 @@ class Waves {
     const bool limit = size * longest_ < 1e-6;
     const Point<Dim> towards = limit ? direction_ : Point<Dim>(k / size);
     const Sums<Dim> sums = limit ? sum(direction_, true) : sum(k, false);
-    const Eigen::SelfAdjointEigenSolver<Tensor<Dim>> pairs(sums.total / total_mass_);
+    const Tensor<Dim> symbol = sums.total / total_mass_;
+    const Branches<Dim> pairs = branches_of<Dim>(symbol, towards, symbol.norm());
     CloudWaves<Dim> result;
     PlaneWaves<Dim>& w = result.waves;
     w.k = k;
-    const std::array<int, Dim> order = branches(pairs.eigenvectors(), towards);
-    const double round_off = 1e-12 * pairs.eigenvalues().cwiseAbs().maxCoeff();
+    const double round_off = 1e-12 * symbol.norm();
     for (std::size_t b = 0; b < static_cast<std::size_t>(Dim); ++b) {
-      const Point<Dim> a = pairs.eigenvectors().col(order[b]);
-      const double square = pairs.eigenvalues()[order[b]];
+      const Point<Dim> a = pairs.polarisation.col(static_cast<Eigen::Index>(b));
+      const double square = pairs.squared[b];
       // omega, or in the limit omega/|k|
       const double root =
           square < -round_off ? std::numeric_limits<double>::quiet_NaN() : std::sqrt(std::max(square, 0.0));
@@ -98,7 +98,7 @@ class Waves {
       w.phase_velocity[b] = limit ? root : root / size;
       for (std::size_t c = 0; c < static_cast<std::size_t>(Dim); ++c)
         w.group_velocity[b][static_cast<Eigen::Index>(c)] =
-            a.dot(sums.gradient[c] * a) / (2.0 * root * total_mass_);
+            root == 0.0 ? 0.0 : a.dot(sums.gradient[c] * a) / (2.0 * root * total_mass_);
       if (!limit) deviations(sums, a, square, root, result.spread[b], result.residual[b]);
     }
     return result;
@@ -138,17 +138,6 @@ class Waves {
     for (const auto& part : gradient)
       for (std::size_t c = 0; c < part.size(); ++c) sums.gradient[c] += part[c];
     return sums;
-  }
-
-  /// P first, the column most parallel to k; the others ascend.
-  [[nodiscard]] static std::array<int, Dim> branches(const Tensor<Dim>& columns, const Point<Dim>& towards) {
-    Eigen::Index pressure = 0;
-    (columns.transpose() * towards).cwiseAbs().maxCoeff(&pressure);
-    std::array<int, Dim> order = {static_cast<int>(pressure)};
-    std::size_t next = 1;
-    for (int b = 0; b < Dim; ++b)
-      if (b != pressure) order[next++] = b;
-    return order;
   }
 
   void deviations(const Sums<Dim>& sums, const Point<Dim>& a, double square, double root, double& spread,
