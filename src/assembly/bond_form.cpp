@@ -7,12 +7,11 @@
 #include <variant>
 
 #include "linalg/vector_kernels.hpp"
+#include "perimode/linalg/threads.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
 
 /// K u of one particle. Two sums take turns, so that a bond does not wait for the one before.
 template <int Dim>

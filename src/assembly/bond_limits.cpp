@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "bond_ends.hpp"
 #include "bond_stretch.hpp"
@@ -13,7 +12,6 @@ namespace perimode {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double round_off = 1e-12;
 
 /// Calls visit(i, end) for every alive bond of a chunk, those between particles from one end alone.

@@ -11,7 +11,6 @@
 namespace perimode {
 
 constexpr Index piece_particles = 256;  ///< a multiple of bond_lanes; their forces stay in the first cache
-constexpr Index parallel_particles = 1000;  ///< from which threads pay
 
 /// Consecutive particles; on a grid of one row of cells.
 struct Piece {
@@ -59,7 +58,7 @@ class PieceByPiece : public BondEvaluation<Dim> {
                                            const BondRequest& request) override {
     spread(given, q);
     const Index parts =
-        body_->count() < parallel_particles ? 1 : std::max<Index>(1, std::min<Index>(threads(), pieces()));
+        body_->count() < parallel_rows ? 1 : std::max<Index>(1, std::min<Index>(threads(), pieces()));
     work_.resize(std::max<std::size_t>(work_.size(), static_cast<std::size_t>(parts)));
     if (request.energy) energy_.assign(piece_.size(), 0.0);
 #pragma omp parallel for schedule(static, 1) if (parts > 1)

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <limits>
 
 #include "bond_pieces.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int Dim>
 class CloudEvaluation final : public PieceByPiece<Dim> {
@@ -52,7 +49,7 @@ class CloudEvaluation final : public PieceByPiece<Dim> {
   void spread(const GivenMotion<Dim>& given, const double* q) override {
     const Index* free_number = this->body_->boundary.free_number.data();
     const auto dofs = static_cast<Offset>(u_.size());
-#pragma omp parallel for schedule(static) if (dofs >= parallel_particles * Dim)
+#pragma omp parallel for schedule(static) if (dofs >= parallel_rows * Dim)
     for (Offset d = 0; d < dofs; ++d) u_[d] = free_number[d] >= 0 ? q[free_number[d]] : given.dof[d];
   }
   void sum(const Piece& piece, double* out, double* energy,

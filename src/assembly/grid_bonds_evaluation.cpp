@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <limits>
 
 #include "bond_pieces.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <int Dim>
 class GridEvaluation final : public PieceByPiece<Dim> {
@@ -49,7 +46,7 @@ class GridEvaluation final : public PieceByPiece<Dim> {
       const std::size_t d = static_cast<std::size_t>(particle) * Dim + a;
       return free_number[d] >= 0 ? q[free_number[d]] : given.dof[d];
     };
-#pragma omp parallel for schedule(static) if (n >= parallel_particles)
+#pragma omp parallel for schedule(static) if (n >= parallel_rows)
     for (Index cell = 0; cell < cells; ++cell) {
       const Index occupant = bonds_->occupant[cell];
       if (occupant == GridBonds<Dim>::absent) continue;

@@ -2,12 +2,11 @@
 #include <algorithm>
 
 #include "bond_stretch.hpp"
+#include "perimode/linalg/threads.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr Index parallel_particles = 1000;  ///< from which threads pay
 
 /// The body laid out for the kernels.
 template <int Dim>
@@ -89,7 +88,7 @@ class GridSearch {
     to.assign(static_cast<std::size_t>(stride_ * Dim), 0.0);
     const Index n = body_.count();
     const auto cells = static_cast<Index>(bonds_.occupant.size());
-#pragma omp parallel for schedule(static) if (n > parallel_particles)
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
     for (Index cell = 0; cell < cells; ++cell) {
       const Index occupant = bonds_.occupant[cell];
       if (occupant == GridBonds<Dim>::absent) continue;
@@ -153,7 +152,7 @@ std::vector<StretchSums> grid_stretches(const Body<Dim>& body, const BondLimits&
   const GridSearch<Dim> search(body, limits, u_0, u_1);
   const Index n = body.count();
   std::vector<StretchSums> sums(static_cast<std::size_t>((n + stretch_chunk - 1) / stretch_chunk));
-#pragma omp parallel for schedule(static) if (n > parallel_particles)
+#pragma omp parallel for schedule(static) if (n > parallel_rows)
   for (Index begin = 0; begin < n; begin += stretch_chunk)
     sums[static_cast<std::size_t>(begin / stretch_chunk)] =
         search.chunk(begin, std::min(n, begin + stretch_chunk));

@@ -10,8 +10,6 @@ namespace perimode {
 
 namespace {
 
-constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
-
 template <int Dim>
 void fill_layer(const Stencil<Dim>& s, Index layer, const double* x, double* to) {
   const BoundaryMap<Dim>& boundary = s.body->boundary;

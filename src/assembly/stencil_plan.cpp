@@ -5,14 +5,13 @@
 #include <cmath>
 #include <utility>
 
+#include "perimode/linalg/threads.hpp"
 #include "stencil.hpp"
 #include "stencil_kernels.hpp"
 
 namespace perimode {
 
 namespace {
-
-constexpr Index parallel_rows = 1000;  ///< particles from which threads pay
 
 /// What decides how a particle's bonds are summed.
 template <int Dim>

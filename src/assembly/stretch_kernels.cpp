@@ -11,7 +11,6 @@ namespace {
 constexpr int width = stretch_lanes;
 using Vector __attribute__((vector_size(width * sizeof(double)), aligned(8), may_alias)) = double;
 using Bits __attribute__((vector_size(width * sizeof(double)), aligned(8), may_alias)) = std::int64_t;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 [[gnu::always_inline]] inline Vector load(const double* from) {
   return *reinterpret_cast<const Vector*>(from);

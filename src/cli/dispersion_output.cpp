@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace perimode::cli {
@@ -14,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Branch kind_of(int branch) { return branch == 0 ? Branch::pressure : Branch::shear; }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <vector>
 
 #include "dispersion_output.hpp"
@@ -15,7 +16,7 @@ namespace perimode::cli {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 std::string ratio_text(double value) { return std::isfinite(value) ? fmt::format("{:.6f}", value) : "none"; }
 

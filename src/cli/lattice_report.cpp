@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "perimode/core/error.hpp"
@@ -13,7 +14,7 @@ namespace perimode::cli {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 /// Corners other than k = 0, the farthest of each direction.
 template <int Dim>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numbers>
 #include <numeric>
 
 #include "cloud_dispersion.hpp"
@@ -20,7 +21,7 @@ namespace perimode::cli {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+using std::numbers::pi;
 
 Branch kind_of(int branch) { return branch == 0 ? Branch::pressure : Branch::shear; }
 

@@ -79,7 +79,7 @@ std::string growth_text(const CrackGrowthResult& result) {
 }
 
 template <int Dim>
-int run(const Case& input, const Arguments& arguments, Console& console) {
+int run_crack_growth_in(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   refuse_if_too_large(least_body_bytes(input.model), "the body");
   ResultDirectory folder(arguments.output.value_or(input.output.directory), arguments.force);
@@ -131,8 +131,9 @@ int run(const Case& input, const Arguments& arguments, Console& console) {
 }  // namespace
 
 int run_crack_growth(const Case& input, const Arguments& arguments, Console& console) {
-  return with_dimension(input.model.dimension,
-                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
+  return with_dimension(input.model.dimension, [&](auto dimension) {
+    return run_crack_growth_in<dimension.value>(input, arguments, console);
+  });
 }
 
 }  // namespace perimode::cli

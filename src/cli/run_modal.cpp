@@ -87,7 +87,7 @@ ModalResult solve_checked(const Body<Dim>& body, const Case& input, const Sink& 
 }
 
 template <int Dim>
-int run(const Case& input, const Arguments& arguments, Console& console) {
+int run_modal_in(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const ModalOptions options = *input.modal;
   refuse_if_too_large(least_body_bytes(input.model), "the body");
@@ -159,8 +159,9 @@ int run_modal(const Arguments& arguments, Console& console) {
                    {arguments.case_file.string(), 0, 0}});
   }
   if (arguments.crack_growth) return run_crack_growth(input, arguments, console);
-  return with_dimension(input.model.dimension,
-                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
+  return with_dimension(input.model.dimension, [&](auto dimension) {
+    return run_modal_in<dimension.value>(input, arguments, console);
+  });
 }
 
 }  // namespace perimode::cli

@@ -88,7 +88,7 @@ void warn_of_imbalance(const QuasistaticResult& result, Console& console) {
 }
 
 template <int Dim>
-int run(const Case& input, const Arguments& arguments, Console& console) {
+int run_quasistatic_in(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const double least_bytes = least_body_bytes(input.model);
   refuse_if_too_large(least_bytes, "the body");
@@ -155,8 +155,9 @@ int run_quasistatic(const Arguments& arguments, Console& console) {
          "add `analysis: { quasistatic: { loads: [ { traction: [...], at: { face: y+, layers: 1 } } ] } }`",
          {arguments.case_file.string(), 0, 0}});
   }
-  return with_dimension(input.model.dimension,
-                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
+  return with_dimension(input.model.dimension, [&](auto dimension) {
+    return run_quasistatic_in<dimension.value>(input, arguments, console);
+  });
 }
 
 }  // namespace perimode::cli

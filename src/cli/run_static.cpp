@@ -31,7 +31,7 @@ StaticResult solve_checked(const Body<Dim>& body, const Case& input, double leas
 }
 
 template <int Dim>
-int run(const Case& input, const Arguments& arguments, Console& console) {
+int run_static_in(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const double least_bytes = least_body_bytes(input.model);
   refuse_if_too_large(least_bytes, "the body");
@@ -89,8 +89,9 @@ int run_static(const Arguments& arguments, Console& console) {
                    "add `analysis: { static: { loads: [ { body_force: [...] } ] } }`",
                    {arguments.case_file.string(), 0, 0}});
   }
-  return with_dimension(input.model.dimension,
-                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
+  return with_dimension(input.model.dimension, [&](auto dimension) {
+    return run_static_in<dimension.value>(input, arguments, console);
+  });
 }
 
 }  // namespace perimode::cli

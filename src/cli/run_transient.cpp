@@ -109,7 +109,7 @@ void warn_of_imbalance(const TransientResult& result, Console& console) {
 }
 
 template <int Dim>
-int run(const Case& input, const Arguments& arguments, Console& console) {
+int run_transient_in(const Case& input, const Arguments& arguments, Console& console) {
   const auto start = Clock::now();
   const double least_bytes = least_body_bytes(input.model);
   refuse_if_too_large(least_bytes, "the body");
@@ -168,8 +168,9 @@ int run_transient(const Arguments& arguments, Console& console) {
                    "add `analysis: { transient: { end: 1.0e-3, loads: [ { body_force: [...] } ] } }`",
                    {arguments.case_file.string(), 0, 0}});
   }
-  return with_dimension(input.model.dimension,
-                        [&](auto dimension) { return run<dimension.value>(input, arguments, console); });
+  return with_dimension(input.model.dimension, [&](auto dimension) {
+    return run_transient_in<dimension.value>(input, arguments, console);
+  });
 }
 
 }  // namespace perimode::cli

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <limits>
 
 #include "dispersion/bounded_least_squares.hpp"
 #include "dispersion/linear_programme.hpp"
@@ -11,7 +10,6 @@ namespace {
 
 LinearProgramme dual_programme(const SampledErrors& samples, const Eigen::VectorXd& limits,
                                const Eigen::MatrixXd& constraints, double lower) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Eigen::Index points = samples.values.rows(), orbits = samples.values.cols(), m = constraints.rows();
   const Eigen::Index bounds = std::isfinite(lower) ? orbits : 0, columns = points + m + bounds;
   LinearProgramme dual{Eigen::MatrixXd(orbits, columns), Eigen::VectorXd(columns), Eigen::VectorXd(columns),

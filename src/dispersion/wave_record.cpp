@@ -14,7 +14,7 @@
 namespace perimode {
 namespace {
 
-constexpr double whole = 1e-6;  ///< of a wave: what counts as a whole number
+constexpr double nearly_whole = 1e-6;  ///< of a wave: what counts as a whole number
 
 /// Adds the waves from corner `a` to corner `b`, both in whole waves per period.
 template <int Dim>
@@ -26,14 +26,14 @@ void add_side(const Grid<Dim>& grid, const Point<Dim>& a, const Point<Dim>& b, d
   (b - a).cwiseAbs().maxCoeff(&along);
   const Point<Dim> side = (b - a).cwiseProduct(unit);
   const int sign = b[along] > a[along] ? 1 : -1;
-  const auto first = std::llround(std::ceil(sign * a[along] - whole));
-  const auto last = std::llround(std::floor(sign * b[along] + whole));
+  const auto first = std::llround(std::ceil(sign * a[along] - nearly_whole));
+  const auto last = std::llround(std::floor(sign * b[along] + nearly_whole));
   for (auto n = first; n <= last; ++n) {
     const double share =
         (sign * static_cast<double>(n) - a[along]) / (b[along] - a[along]);  // of the side up to here
     const Point<Dim> exact = a + share * (b - a);
     const Point<Dim> rounded = exact.array().round().matrix();
-    if ((exact - rounded).cwiseAbs().maxCoeff() > whole) continue;
+    if ((exact - rounded).cwiseAbs().maxCoeff() > nearly_whole) continue;
     std::array<Index, Dim> number;
     for (int c = 0; c < Dim; ++c) number[static_cast<std::size_t>(c)] = static_cast<Index>(rounded[c]);
     const Point<Dim> k = rounded.cwiseProduct(unit);

@@ -30,9 +30,6 @@ Eigen::VectorXd all_dofs(const Body<Dim>& body, const Eigen::Ref<const Eigen::Ve
 
 }  // namespace
 
-/// A residual of iterations that have not converged.
-constexpr double hopeless = 1e-6;
-
 void not_held() {
   invalid_input(
       {"supports and bonds that hold the body against its loads",
@@ -123,7 +120,7 @@ bool CrackRun<Dim>::solve(const std::vector<Driving>& drivings, std::vector<Eige
     for (Eigen::Index c = 0; c < columns; ++c) b.col(c) = right_side(drivings[static_cast<std::size_t>(c)]);
     outcome = equilibrium_->solve(b, q_);
     // Iterations that come nowhere near may have met a mechanism as well.
-    if (!outcome.singular && (outcome.converged || outcome.residual <= hopeless)) break;
+    if (!outcome.singular && (outcome.converged || outcome.residual <= hopeless_residual)) break;
     const std::size_t before = equilibrium_->pins().size();
     pin_mechanism(outcome.dof);
     q_.setZero();

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "io/exodus_fields.hpp"
 #include "io/output_file.hpp"
 #include "perimode/core/error.hpp"
 
@@ -17,7 +18,6 @@ namespace perimode {
 namespace {
 
 constexpr std::size_t usual_name = 32;  ///< readers of old expect no longer ones
-constexpr std::size_t longest_name = 255;
 
 /// The library takes names as char**, which it does not change.
 std::vector<char*> pointers(std::vector<std::string>& names) {

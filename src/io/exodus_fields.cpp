@@ -11,8 +11,6 @@
 namespace perimode {
 namespace {
 
-constexpr std::size_t longest_name = 255;
-
 /// Extent of the particles' places along the longest axis, m.
 template <int Dim>
 double extent(const Particles<Dim>& particles) {

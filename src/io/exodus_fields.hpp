@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -11,6 +12,8 @@
 #include "perimode/geometry/particles.hpp"
 
 namespace perimode {
+
+inline constexpr std::size_t longest_name = 255;  ///< of blocks, fields and variables, in letters
 
 /// Results in an Exodus II file, open for reading: particles, times, nodal variables. Everything that does
 /// not fit is an invalid_input at `where`.

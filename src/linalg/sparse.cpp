@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "perimode/linalg/threads.hpp"
+
 namespace perimode {
 namespace {
-
-/// Below this many rows a parallel region costs more than it saves.
-constexpr Index parallel_rows = 1000;
 
 /// One block row times x, with Block independent sums: every row's sum runs in column order, so the
 /// result does not depend on how rows are shared out.

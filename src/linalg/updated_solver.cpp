@@ -45,7 +45,6 @@ constexpr double much_cheaper = 2.0;
 constexpr double worse_than_fresh = 10.0;
 constexpr double always_fine = 1e-12;  // a residual that needs no refinement
 constexpr int most_refinements = 2;
-constexpr double hopeless = 1e-6;  // a residual that is no solution
 
 /// The row with the entry of largest size; -1 where some are no numbers.
 Index largest_row(const Eigen::MatrixXd& x) {
@@ -282,7 +281,7 @@ struct UpdatedSolver::Implementation {
       }
     }
     if (!done) solve_freshly(b, x, outcome);
-    if (usable && !(outcome.residual <= hopeless)) {
+    if (usable && !(outcome.residual <= hopeless_residual)) {
       // A fresh factor whose vanishing pivot rounding has kept positive: x is the motion it belongs to.
       usable = false;
       outcome.dof = largest_row(x);

@@ -23,13 +23,13 @@ if(VARIANT STREQUAL "find_package")
   set(perimode "-DCMAKE_PREFIX_PATH=${prefix}")
   set(build_type "${BUILD_TYPE}")
 else()
-  set(perimode "-DPERIMODE_SOURCE_DIR=${SOURCE_DIR}")
+  set(perimode "-DPERIMODE_SOURCE_DIR=${SOURCE_DIR}" -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_FLAGS_DEBUG=-O0)
   set(build_type Debug)  # the quickest to compile
 endif()
 
 run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/consumer" -B "${WORK_DIR}/build" -G "${GENERATOR}"
     "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
-    "-DCMAKE_BUILD_TYPE=${build_type}" "${perimode}")
+    "-DCMAKE_BUILD_TYPE=${build_type}" ${perimode})
 run(${CMAKE_COMMAND} --build "${WORK_DIR}/build" --parallel 2)
 run("${WORK_DIR}/build/consumer")
 expect("2509.113194 Hz")

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <limits>
 
 namespace perimode {
 
@@ -10,6 +11,8 @@ namespace perimode {
 using Index = std::int32_t;
 /// Counts and offsets of bonds and nonzeros.
 using Offset = std::int64_t;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A position, displacement or direction in `Dim` dimensions (m where it is a length).
 template <int Dim>

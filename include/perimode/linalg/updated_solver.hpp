@@ -28,6 +28,9 @@ struct UpdatedSolverOptions {
   int most_iterations = 20000;
 };
 
+/// A relative residual above which iterations gave no solution.
+inline constexpr double hopeless_residual = 1e-6;
+
 /// One solution.
 struct SolveOutcome {
   SolveWay way = SolveWay::update;

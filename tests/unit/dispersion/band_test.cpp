@@ -7,6 +7,7 @@
 #include "lattices.hpp"
 #include "perimode/core/error.hpp"
 #include "perimode/dispersion/zone.hpp"
+#include "support/relative.hpp"
 
 namespace perimode {
 namespace {

@@ -11,10 +11,6 @@
 
 namespace perimode::test {
 
-inline void expect_relative(double value, double expected, double relative) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
-}
-
 /// A lattice with E = rho = section = 1.
 template <int Dim>
 Lattice<Dim> lattice_of(Micromodulus kernel, double spacing, double ratio,

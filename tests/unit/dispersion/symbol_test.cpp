@@ -9,18 +9,16 @@
 #include <vector>
 
 #include "perimode/reference/separation.hpp"
+#include "support/relative.hpp"
 
 namespace perimode {
 namespace {
 
 using std::numbers::pi;
+using test::expect_relative;
 
 const std::vector<Micromodulus> kernels = {
     {Kernel::constant}, {Kernel::conical}, {Kernel::gaussian, 2.0}, {Kernel::inverse_distance}};
-
-void expect_relative(double value, double expected, double relative) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
-}
 
 Medium medium_of(Micromodulus kernel, Continuum continuum, double horizon, double youngs = 1.0,
                  double density = 1.0) {

@@ -21,16 +21,16 @@ namespace {
 using std::numbers::pi;
 using testing::HasSubstr;
 
-constexpr double spacing = 0.5;
+constexpr double dx = 0.5;
 
 template <int Dim>
 Particles<Dim> box(const std::array<int, Dim>& cells) {
   Coordinates lower, upper;
   for (const int n : cells) {
     lower.push_back(-1.0);
-    upper.push_back(-1.0 + n * spacing);
+    upper.push_back(-1.0 + n * dx);
   }
-  return grid_particles<Dim>(make_grid<Dim>(lower, upper, spacing), 1.0);
+  return grid_particles<Dim>(make_grid<Dim>(lower, upper, dx), 1.0);
 }
 
 template <class Call>
@@ -55,7 +55,7 @@ TEST(WavesOnPath, AreAllThatFitTheContourOfASquare) {
                                                       {4, 3}, {4, 4}, {3, 3}, {2, 2}, {1, 1}, {0, 0}};
   EXPECT_EQ(waves.number, expected);
   for (std::size_t w = 0; w < expected.size(); ++w) {
-    const Point<2> k(2.0 * pi * expected[w][0] / (8 * spacing), 2.0 * pi * expected[w][1] / (8 * spacing));
+    const Point<2> k(2.0 * pi * expected[w][0] / (8 * dx), 2.0 * pi * expected[w][1] / (8 * dx));
     EXPECT_NEAR((waves.k[w] - k).norm(), 0.0, 1e-13);
     EXPECT_NEAR(waves.direction[w].norm(), 1.0, 1e-14);
     if (k.norm() > 0.0) {
@@ -71,7 +71,7 @@ TEST(WavesOnPath, AreAllThatFitTheContourOfASquare) {
 }
 
 TEST(WavesOnPath, LeavesOutWhatDoesNotFit) {
-  // 9 cells: pi/spacing is 4.5 waves; along the diagonal of 9 x 6 cells only every third of 4.5 and second
+  // 9 cells: pi/dx is 4.5 waves; along the diagonal of 9 x 6 cells only every third of 4.5 and second
   // of 3.
   const GridWaves<1> bar = waves_on_path<1>(*box<1>({9}).grid, {Point<1>(0.0), Point<1>(1.0)});
   EXPECT_EQ(bar.number, (std::vector<std::array<Index, 1>>{{0}, {1}, {2}, {3}, {4}}));
@@ -80,7 +80,7 @@ TEST(WavesOnPath, LeavesOutWhatDoesNotFit) {
   EXPECT_EQ(plate.number, (std::vector<std::array<Index, 2>>{{0, 0}, {3, 2}}));
   const GridWaves<1> back = waves_on_path<1>(*box<1>({8}).grid, {Point<1>(0.9), Point<1>(-0.6)});
   EXPECT_EQ(back.number, (std::vector<std::array<Index, 1>>{{3}, {2}, {1}, {0}, {-1}, {-2}}));
-  EXPECT_NEAR(back.length.front(), 0.15 * pi / spacing, 1e-13);  // from 0.9 to 0.75
+  EXPECT_NEAR(back.length.front(), 0.15 * pi / dx, 1e-13);  // from 0.9 to 0.75
 }
 
 TEST(WavesOnPath, RefusesWhatIsNoPath) {
@@ -103,7 +103,7 @@ void expect_sums(const std::array<int, Dim>& cells, const std::vector<std::array
   GridWaves<Dim> waves;
   for (const auto& q : numbers) {
     Point<Dim> k;
-    for (int a = 0; a < Dim; ++a) k[a] = 2.0 * pi * q[a] / (cells[a] * spacing);
+    for (int a = 0; a < Dim; ++a) k[a] = 2.0 * pi * q[a] / (cells[a] * dx);
     waves.number.push_back(q);
     waves.k.push_back(k);
     waves.direction.push_back(Point<Dim>::Unit(0));

@@ -12,6 +12,7 @@
 #include "perimode/dispersion/zone.hpp"
 #include "perimode/linalg/threads.hpp"
 #include "support/models.hpp"
+#include "support/relative.hpp"
 
 namespace perimode {
 namespace {

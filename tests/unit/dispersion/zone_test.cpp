@@ -14,6 +14,7 @@
 #include "perimode/core/error.hpp"
 #include "perimode/linalg/threads.hpp"
 #include "support/models.hpp"
+#include "support/relative.hpp"
 
 namespace perimode {
 namespace {

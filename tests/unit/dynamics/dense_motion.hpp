@@ -12,6 +12,10 @@
 
 namespace perimode::test {
 
+/// Matrices and vectors of a body of one dof.
+inline Eigen::MatrixXd number(double x) { return Eigen::MatrixXd::Constant(1, 1, x); }
+inline Eigen::VectorXd one(double x) { return Eigen::VectorXd::Constant(1, x); }
+
 /// M q'' + K q = 0 with a dense K.
 inline Motion dense_motion(const Eigen::MatrixXd& k, const Eigen::VectorXd& mass) {
   Motion motion;

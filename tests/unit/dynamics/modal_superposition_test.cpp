@@ -16,9 +16,8 @@ namespace perimode {
 namespace {
 
 using test::dense_motion;
-
-Eigen::MatrixXd number(double x) { return Eigen::MatrixXd::Constant(1, 1, x); }
-Eigen::VectorXd one(double x) { return Eigen::VectorXd::Constant(1, x); }
+using test::number;
+using test::one;
 
 TimeFunction table(std::vector<double> time, std::vector<double> value) {
   TimeFunction f;

@@ -21,9 +21,8 @@ namespace {
 
 using test::dense_motion;
 using test::dense_solver;
-
-Eigen::MatrixXd number(double x) { return Eigen::MatrixXd::Constant(1, 1, x); }
-Eigen::VectorXd one(double x) { return Eigen::VectorXd::Constant(1, x); }
+using test::number;
+using test::one;
 
 NewmarkOptions hht(double alpha) {
   NewmarkOptions o;

@@ -9,7 +9,7 @@ using test::replace_line;
 using test::TemporaryFolder;
 using testing::ElementsAre;
 
-DispersionSpec read(const char* base, const std::string& section) {
+DispersionSpec read_dispersion(const char* base, const std::string& section) {
   const TemporaryFolder folder;
   (void)folder.write("cloud.csv", test::sample_cloud());
   const std::string text =
@@ -20,7 +20,7 @@ DispersionSpec read(const char* base, const std::string& section) {
 TEST(ReadDispersion, AnEmptySectionIsAllDefaults) {
   for (const char* section : {"", "{}"}) {
     for (const char* base : {"bar", "plate", "solid", "cloud"}) {
-      const DispersionSpec spec = read(base, section);
+      const DispersionSpec spec = read_dispersion(base, section);
       EXPECT_TRUE(spec.path.empty());
       EXPECT_EQ(spec.points, 300);
       EXPECT_EQ(spec.phase_error, 0.05);
@@ -33,7 +33,7 @@ TEST(ReadDispersion, AnEmptySectionIsAllDefaults) {
 }
 
 TEST(ReadDispersion, EveryKeyOfAnAnalysis) {
-  const DispersionSpec spec = read(
+  const DispersionSpec spec = read_dispersion(
       "plate",
       "{ path: [[0, 0], [1, 0.5], [-1, 1]], points: 50, zone: 64, time_step: 1.0e-8, integrator: newmark, "
       "phase_error: 0.01, polar: { wave_number: 0.25, directions: 36 }, spectrum: { run: out/pulse } }");
@@ -51,20 +51,20 @@ TEST(ReadDispersion, EveryKeyOfAnAnalysis) {
   ASSERT_TRUE(spec.spectrum.has_value());
   EXPECT_EQ(spec.spectrum->run.filename(), "pulse");
   EXPECT_TRUE(spec.spectrum->run.is_absolute());  // it starts at the folder of the case, which is here
-  EXPECT_EQ(read("bar", "{ finite_difference: 0 }").finite_difference, 0.0);
-  EXPECT_EQ(read("bar", "{ finite_difference: 1 }").finite_difference, 1.0);
-  EXPECT_EQ(read("cloud", "{ waves: 7, time_step: 1.0e-8 }").waves, 7);
+  EXPECT_EQ(read_dispersion("bar", "{ finite_difference: 0 }").finite_difference, 0.0);
+  EXPECT_EQ(read_dispersion("bar", "{ finite_difference: 1 }").finite_difference, 1.0);
+  EXPECT_EQ(read_dispersion("cloud", "{ waves: 7, time_step: 1.0e-8 }").waves, 7);
 }
 
 TEST(ReadDispersion, EveryKeyOfAnOptimisation) {
-  const DispersionSpec spec = read(
+  const DispersionSpec spec = read_dispersion(
       "solid",
       "{ optimise: { method: least_squares, norm: l2, domain: zone, lower_bound: -0.5, poissons_ratio: 0.3, "
       "weights: [2, 0], fit: 0 } }");
   ASSERT_TRUE(spec.optimise.has_value());
   EXPECT_EQ(spec.optimise->method, OptimiseMethod::least_squares);
   EXPECT_EQ(spec.optimise->norm, ErrorNorm::l2);
-  EXPECT_EQ(read("solid", "{ optimise: { norm: l1 } }").optimise->norm, ErrorNorm::l1);
+  EXPECT_EQ(read_dispersion("solid", "{ optimise: { norm: l1 } }").optimise->norm, ErrorNorm::l1);
   EXPECT_EQ(spec.optimise->domain, ErrorDomain::zone);
   EXPECT_EQ(spec.optimise->lower_bound, -0.5);
   EXPECT_EQ(spec.optimise->poissons_ratio, 0.3);
@@ -73,7 +73,7 @@ TEST(ReadDispersion, EveryKeyOfAnOptimisation) {
   for (const char* section :
        {"{ optimise: }", "{ optimise: {} }",
         "{ optimise: { lower_bound: none, poissons_ratio: theory, method: least_squares } }"}) {
-    const DispersionSpec plain = read("solid", section);
+    const DispersionSpec plain = read_dispersion("solid", section);
     ASSERT_TRUE(plain.optimise.has_value());
     EXPECT_EQ(plain.optimise->norm, ErrorNorm::l2);
     EXPECT_EQ(plain.optimise->domain, ErrorDomain::contour);

@@ -9,19 +9,21 @@ using test::TemporaryFolder;
 using testing::HasSubstr;
 
 /// A sample case with `section` as its analysis.quasistatic.
-Case read(const std::string& section, const std::vector<std::string>& overrides = {}) {
+Case read_quasistatic(const std::string& section, const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   const std::string line = "analysis: { quasistatic: " + section + " }";
   return read_case(
       folder.write("case.yaml", replace_line(test::sample_cases().at("plate"), "analysis", line)), overrides);
 }
 
-QuasistaticOptions options(const std::string& section) { return read(section).quasistatic.value(); }
+QuasistaticOptions options(const std::string& section) {
+  return read_quasistatic(section).quasistatic.value();
+}
 
 /// The complaint about a section.
-std::string refusal(const std::string& section, const std::vector<std::string>& overrides = {}) {
+std::string refused_quasistatic(const std::string& section, const std::vector<std::string>& overrides = {}) {
   try {
-    (void)read(section, overrides);
+    (void)read_quasistatic(section, overrides);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
     return error.what();
@@ -31,7 +33,7 @@ std::string refusal(const std::string& section, const std::vector<std::string>& 
 
 TEST(ReadQuasistatic, NothingIsAllDefaults) {
   for (const char* section : {"", "{}"}) {
-    const Case c = read(section);
+    const Case c = read_quasistatic(section);
     ASSERT_TRUE(c.quasistatic.has_value());
     const QuasistaticOptions& o = *c.quasistatic;
     EXPECT_EQ(o.control, QuasistaticControl::event);
@@ -99,9 +101,10 @@ TEST(ReadQuasistatic, SolversAreWaysOfUpdatedSolver) {
 }
 
 TEST(ReadQuasistatic, TheGriffithLoadNeedsAPreCrack) {
-  EXPECT_THAT(refusal("{ griffith: true }", {"body.precracks=[]"}), HasSubstr("pre-crack"));
-  EXPECT_TRUE(read("{ griffith: true }", {"body.precracks=[ { from: [0.5, 0], to: [0.5, 0.2] } ]"})
-                  .quasistatic->griffith);
+  EXPECT_THAT(refused_quasistatic("{ griffith: true }", {"body.precracks=[]"}), HasSubstr("pre-crack"));
+  EXPECT_TRUE(
+      read_quasistatic("{ griffith: true }", {"body.precracks=[ { from: [0.5, 0], to: [0.5, 0.2] } ]"})
+          .quasistatic->griffith);
 }
 
 TEST(ReadQuasistatic, WrongValuesAreRefusedWhereTheyStand) {
@@ -142,7 +145,7 @@ TEST(ReadQuasistatic, WrongValuesAreRefusedWhereTheyStand) {
       {"[]", "a map"},
   };
   for (const auto& [section, words] : bad) {
-    const std::string what = refusal(section);
+    const std::string what = refused_quasistatic(section);
     EXPECT_THAT(what, HasSubstr(words)) << section;
     EXPECT_THAT(what, HasSubstr("case.yaml:20:")) << section;
   }

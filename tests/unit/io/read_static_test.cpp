@@ -7,7 +7,7 @@ namespace {
 using test::replace_line;
 using test::TemporaryFolder;
 
-Case read(const std::string& section) {
+Case read_static(const std::string& section) {
   const TemporaryFolder folder;
   const std::string text =
       replace_line(test::sample_cases().at("plate"), "analysis", "analysis: { static: " + section + " }");
@@ -15,7 +15,7 @@ Case read(const std::string& section) {
 }
 
 TEST(ReadStatic, LoadsOfEveryKind) {
-  const Case c = read(
+  const Case c = read_static(
       "{ solver: jacobi, tolerance: 1e-6, loads: [ { traction: [1, -2], at: { face: y-, layers: 2 }, time: "
       "constant }, "
       "{ body_force: [3, 4] }, { force: [5, 6], at: { block: inclusion }, time: { ricker: 100 } } ] }");
@@ -35,7 +35,7 @@ TEST(ReadStatic, LoadsOfEveryKind) {
 
 TEST(ReadStatic, AnEmptySectionIsAllDefaults) {
   for (const char* section : {"", "{}", "{ loads: [] }"}) {
-    const Case c = read(section);
+    const Case c = read_static(section);
     ASSERT_TRUE(c.statics.has_value());
     EXPECT_TRUE(c.statics->loads.empty());
     EXPECT_EQ(c.statics->solver, StaticSolver::automatic);

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using Kind = TimeFunction::Kind;
 
 /// A plate whose first boundary condition varies as `time`; `table` lies beside it as force.csv.
-Case read(const std::string& time, const std::string& table = "") {
+Case read_time(const std::string& time, const std::string& table = "") {
   const TemporaryFolder folder;
   if (!table.empty()) (void)folder.write("force.csv", table);
   const std::string line =
@@ -22,12 +22,12 @@ Case read(const std::string& time, const std::string& table = "") {
 }
 
 TimeFunction time_of(const std::string& time, const std::string& table = "") {
-  return std::get<Prescribe>(read(time, table).model.boundary[0].what).time;
+  return std::get<Prescribe>(read_time(time, table).model.boundary[0].what).time;
 }
 
 std::string complaint_about_table(const std::string& table) {
   try {
-    (void)read("{ table: force.csv }", table);
+    (void)read_time("{ table: force.csv }", table);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::invalid_input);
     return error.what();

@@ -10,8 +10,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// A sample case with `section` as its analysis.transient.
-Case read(const std::string& section, const char* base = "plate",
-          const std::vector<std::string>& overrides = {}) {
+Case read_transient(const std::string& section, const char* base = "plate",
+                    const std::vector<std::string>& overrides = {}) {
   const TemporaryFolder folder;
   (void)folder.write("cloud.csv", test::sample_cloud());
   (void)folder.write("u0.csv", "x,y\n0,0\n");
@@ -23,11 +23,11 @@ Case read(const std::string& section, const char* base = "plate",
 
 TransientOptions options(const std::string& section, const char* base = "plate",
                          const std::vector<std::string>& overrides = {}) {
-  return read(section, base, overrides).transient.value();
+  return read_transient(section, base, overrides).transient.value();
 }
 
 TEST(ReadTransient, TheEndAloneIsEnough) {
-  const Case c = read("{ end: 1.0e-3 }");
+  const Case c = read_transient("{ end: 1.0e-3 }");
   ASSERT_TRUE(c.transient.has_value());
   const TransientOptions& o = *c.transient;
   EXPECT_EQ(o.method, TimeMethod::central_difference);
@@ -77,7 +77,8 @@ TEST(ReadTransient, MethodsHaveTheirParameters) {
 
 TEST(ReadTransient, InitialStates) {
   const InitialSpec formulas =
-      read("{ end: 1, initial: { displacement: [\"1e-3*sin(2*pi*x)\", 0.1], velocity: [\"0\", \"x*y\"] } }")
+      read_transient(
+          "{ end: 1, initial: { displacement: [\"1e-3*sin(2*pi*x)\", 0.1], velocity: [\"0\", \"x*y\"] } }")
           .initial;
   const auto& u = std::get<FormulaField>(formulas.displacement);
   ASSERT_EQ(u.component.size(), 2U);
@@ -85,7 +86,7 @@ TEST(ReadTransient, InitialStates) {
   EXPECT_EQ(std::get<FormulaField>(formulas.velocity).component[1](3.0, 0.5), 1.5);
   EXPECT_EQ(formulas.where.line, 20);
 
-  const Case files = read(
+  const Case files = read_transient(
       "{ end: 1, initial: { displacement: { file: u0.csv }, "
       "velocity: { mode: { file: modes.exo, number: 3, scale: -2 } } } }");
   EXPECT_EQ(std::get<TableField>(files.initial.displacement).file.filename(), "u0.csv");
@@ -144,21 +145,23 @@ TEST(ReadTransient, ProbesOfACloudAreLeftToTheRun) {
 }
 
 TEST(ReadTransient, KinematicsOfTheCase) {
-  const Case c = read("{ end: 1 }", "plate", {"kinematics=large_rotation"});
+  const Case c = read_transient("{ end: 1 }", "plate", {"kinematics=large_rotation"});
   EXPECT_EQ(c.kinematics, Kinematics::large_rotation);
   EXPECT_EQ(c.transient->kinematics, Kinematics::large_rotation);
   EXPECT_EQ(options("{ end: 1 }").kinematics, Kinematics::linear);
 }
 
 TEST(ReadTransient, SurfaceNodesHaveFormulasTractionAndTime) {
-  const Case plate = read("{ end: 1 }", "plate",
-                          {"boundary.1={ wall: y+, type: surface_nodes, displacement: [\"x*y\", 0], "
-                           "time: { ramp: 2 } }"});
+  const Case plate =
+      read_transient("{ end: 1 }", "plate",
+                     {"boundary.1={ wall: y+, type: surface_nodes, displacement: [\"x*y\", 0], "
+                      "time: { ramp: 2 } }"});
   const auto& wall = std::get<Wall>(plate.model.boundary[1].what);
   ASSERT_EQ(wall.displacement.size(), 2U);
   EXPECT_EQ(wall.displacement[0](2.0, 0.5), 1.0);
   EXPECT_EQ(wall.time.kind, TimeFunction::Kind::ramp);
-  const Case bar = read("{ end: 1 }", "bar", {"boundary.1={ wall: x+, type: surface_nodes, traction: -5 }"});
+  const Case bar =
+      read_transient("{ end: 1 }", "bar", {"boundary.1={ wall: x+, type: surface_nodes, traction: -5 }"});
   EXPECT_EQ(std::get<Wall>(bar.model.boundary[1].what).traction, -5.0);
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "support/relative.hpp"
+
 namespace perimode {
 namespace {
 
@@ -26,7 +28,7 @@ double constant_of(Micromodulus micromodulus, const Continuum& continuum) {
 }
 
 void expect_relative(double value, double expected, double relative = tolerance) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
+  test::expect_relative(value, expected, relative);
 }
 
 // Strain energy density of unit dilation by brute quadrature (Simpson), independent of the moments.

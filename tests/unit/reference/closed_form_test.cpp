@@ -14,16 +14,14 @@
 #include <vector>
 
 #include "perimode/dispersion/symbol.hpp"
+#include "support/relative.hpp"
 
 namespace perimode {
 namespace {
 
 using std::numbers::pi;
+using test::expect_relative;
 using ::testing::HasSubstr;
-
-void expect_relative(double value, double expected, double relative) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
-}
 
 Model grid_model(const std::vector<int>& cells, double spacing, double ratio) {
   Model model;

@@ -8,16 +8,15 @@
 #include <string>
 #include <vector>
 
+#include "support/relative.hpp"
+
 namespace perimode {
 namespace {
 
 using std::numbers::pi;
+using test::expect_relative;
 
 constexpr Micromodulus inverse_distance{Kernel::inverse_distance};
-
-void expect_relative(double value, double expected, double relative) {
-  EXPECT_NEAR(value, expected, relative * std::abs(expected));
-}
 
 // The bar of [scabbia2023]: length 1 m, horizon 0.1 m, v = 5000 m/s.
 constexpr double bar_horizon = 0.1, bar_speed = 5000.0;
