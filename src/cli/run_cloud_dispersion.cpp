@@ -43,6 +43,10 @@ double mean_spacing(const Body<Dim>& body) {
 template <int Dim>
 std::vector<AxisWaves<Dim>> waves_of(const Body<Dim>& body, const Case& input) {
   const DispersionSpec& spec = *input.dispersion;
+  if (count_bonds(body.bonds, body.count()) == 0) {
+    invalid_input({"bonds between the particles", "none within the horizon",
+                   "take a horizon longer than their distances", input.model.where});
+  }
   std::vector<AxisWaves<Dim>> result;
   try {
     for (int axis = 0; axis < Dim; ++axis) {

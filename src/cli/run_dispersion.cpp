@@ -81,19 +81,29 @@ void write_optimised(const fs::path& folder, const OptimisedReport<Dim>& optimis
 
 std::string infeasible_message(const OptimisedMicromodulus& result, const OptimiseOptions& options) {
   const std::string bound =
-      options.lower_bound ? fmt::format(" with lower_bound {:.6g}", *options.lower_bound) : std::string();
+      options.lower_bound ? fmt::format(" with lower_bound {}", *options.lower_bound) : std::string();
   const double most = result.largest_feasible_bound;
   if (!std::isfinite(most)) return fmt::format("no coefficients{} meet the long-wave speeds", bound);
+  // In few digits, but never above it.
+  constexpr int digits = 9;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(most), 1e-9))) + 1 - digits);
   return fmt::format(
-      "no coefficients{} meet the long-wave speeds: the largest bound that can be met is {:.10g}; give that "
+      "no coefficients{} meet the long-wave speeds: the largest bound that can be met is {:.{}g}; give that "
       "or less",
-      bound, most);
+      bound, std::floor(most / unit) * unit, digits);
 }
 
 /// Warnings about what was found.
 template <int Dim>
 void warn(const OptimisedReport<Dim>& optimised, Console& console) {
   if (!optimised.lattice) return;
+  constexpr double no_optimum = 1e-6;
+  if (optimised.result.optimality > no_optimum) {
+    console.warning(
+        fmt::format("the coefficients are no optimum: the conditions of one are met to {:.1e} only; take "
+                    "weights of one size",
+                    optimised.result.optimality));
+  }
   if (optimised.report.survey.least_squared < 0.0)
     console.warning(
         "the optimised lattice is unstable: some of its waves grow; give domain: zone, or a lower_bound");

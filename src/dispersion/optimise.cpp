@@ -57,6 +57,15 @@ void require_options(const OptimiseOptions& options, int dimension) {
   }
 }
 
+/// The options with weights of which the largest that counts is 1: what is sought does not change, and limits
+/// of the solvers mean the same.
+OptimiseOptions of_unit_weight(OptimiseOptions options, int dimension) {
+  const double largest =
+      dimension > 1 ? std::max(options.weights[0], options.weights[1]) : options.weights[0];
+  for (double& weight : options.weights) weight /= largest;
+  return options;
+}
+
 /// Panels of 16 points: as asked for, or so many that their error is below round-off. Products of two
 /// cosines of `order` periods in 2 pi have 2 order pi rad on a side; 16 rad a panel are enough for 1e-13.
 int panels_of_side(const OptimiseOptions& options, int order) {
@@ -133,7 +142,8 @@ OptimisedMicromodulus optimise_micromodulus(const Lattice<Dim>& lattice, const O
     infeasible.largest_feasible_bound = largest.bound;
     return infeasible;
   }
-  OptimisedMicromodulus result = optimum(lattice.family, rates, speeds, options, constraints, largest);
+  OptimisedMicromodulus result =
+      optimum(lattice.family, rates, speeds, of_unit_weight(options, Dim), constraints, largest);
   result.largest_feasible_bound = largest.bound;
   const Eigen::Map<const Eigen::VectorXd> alpha(result.alpha.data(),
                                                 static_cast<Eigen::Index>(result.alpha.size()));

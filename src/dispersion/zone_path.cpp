@@ -52,8 +52,9 @@ ZonePath<Dim> zone_path(const std::vector<Point<Dim>>& corners, double spacing, 
   for (std::size_t i = 0; i < sides; ++i) {
     side[i] = scale * (corners[i + 1] - corners[i]).norm();
     if (!(side[i] > 0.0) || !std::isfinite(side[i])) {
-      invalid_input({"corners of a path that differ from the one before",
-                     fmt::format("corner {} where corner {} is", i + 2, i + 1), "remove one of them"});
+      invalid_input({"corners of a path that differ from the one before, a finite distance apart",
+                     fmt::format("a side of {} rad/m from corner {} to {}", side[i], i + 1, i + 2),
+                     "remove or correct one of them"});
     }
   }
   const std::vector<int> steps = steps_of_sides(side, points - 1);

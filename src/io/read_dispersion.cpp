@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/case_sections.hpp"
@@ -23,6 +24,14 @@ std::vector<Coordinates> read_path(const Cursor& cursor, int dimension) {
   std::vector<Coordinates> path(items.size());
   for (std::size_t k = 0; k < items.size(); ++k) {
     path[k] = items[k].point(dimension, "pi/spacing");
+    constexpr double farthest = 100.0;
+    const auto far =
+        std::find_if(path[k].begin(), path[k].end(), [](double x) { return std::abs(x) > farthest; });
+    if (far != path[k].end()) {
+      invalid_input(
+          {fmt::format("{}: components from {} to {}, in pi/spacing", items[k].path(), -farthest, farthest),
+           fmt::format("{}", *far), "waves repeat every 2", items[k].where()});
+    }
     if (k > 0 && path[k] == path[k - 1]) {
       items[k].complain("a point other than the one before", "leave one of them out");
     }
@@ -41,12 +50,21 @@ int read_zone(const Cursor& cursor, int dimension) {
   return points;
 }
 
+/// A number of lines of a table.
+int read_lines(const Cursor& cursor, int least, const char* example) {
+  constexpr int most = 1'000'000;
+  const int lines = cursor.integer(least, example);
+  if (lines > most) cursor.complain(fmt::format("at most {}", most), fmt::format("for example {}", example));
+  return lines;
+}
+
 PolarSpec read_polar(const Cursor& cursor, int dimension) {
   if (dimension == 1) cursor.complain("no polar diagram in 1D", "there is one direction: leave the key out");
   const Section section(cursor, {"wave_number", "directions"});
   PolarSpec polar;
   polar.wave_number = section.need("wave_number", "0.5").number({"pi/spacing", "0.5", Sign::non_negative});
-  if (const auto directions = section.find("directions")) polar.directions = directions->integer(1, "360");
+  if (const auto directions = section.find("directions"))
+    polar.directions = read_lines(*directions, 1, "360");
   return polar;
 }
 
@@ -62,12 +80,16 @@ void read_time_step(const Section& section, DispersionSpec& spec) {
   }
 }
 
-std::array<double, 2> read_weights(const Cursor& cursor) {
+std::array<double, 2> read_weights(const Cursor& cursor, int dimension) {
   const std::vector<Cursor> items = cursor.items("[1, 1]");
   if (items.size() != 2) cursor.complain("a list of 2 numbers, for P and S", "for example [1, 1]");
   const std::array<double, 2> weights = {items[0].number({"", "1", Sign::non_negative}),
                                          items[1].number({"", "1", Sign::non_negative})};
-  if (weights[0] + weights[1] == 0.0) cursor.complain("a weight > 0", "for example [1, 1]");
+  if (weights[0] + (dimension > 1 ? weights[1] : 0.0) == 0.0) {
+    invalid_input({cursor.path() +
+                       (dimension > 1 ? ": a weight > 0" : ": a weight > 0 of P, the one kind of wave in 1D"),
+                   fmt::format("[{}, {}]", weights[0], weights[1]), "for example [1, 1]", cursor.where()});
+  }
   return weights;
 }
 
@@ -124,7 +146,7 @@ void read_targets(const Section& section, int dimension, OptimiseOptions& option
       }
     }
   }
-  if (const auto weights = section.find("weights")) options.weights = read_weights(*weights);
+  if (const auto weights = section.find("weights")) options.weights = read_weights(*weights, dimension);
 }
 
 /// The kernel to be bettered is a multiple of the constant one in whole cells.
@@ -134,7 +156,10 @@ void check_kernel(const Cursor& cursor, const Model& model) {
   };
   const Kernel kernel = model.material.micromodulus.kernel;
   if (kernel != Kernel::constant && !is_lattice_kernel(kernel)) {
-    refuse("a material of the kernel constant, fourier or shells", "another kernel",
+    refuse("a material of the kernel constant, fourier or shells",
+           kernel == Kernel::gaussian  ? "gaussian"
+           : kernel == Kernel::conical ? "conical"
+                                       : "inverse_distance",
            "what is sought multiplies the constant kernel: take that");
   }
   if (model.volume_correction != VolumeCorrection::none) {
@@ -198,7 +223,7 @@ void read_dispersion(const Cursor& cursor, InputFiles& files, Case& result) {
     constexpr std::size_t corners_of_contour[] = {2, 4, 5};
     const std::size_t corners =
         spec.path.empty() ? corners_of_contour[model.dimension - 1] : spec.path.size();
-    spec.points = points->integer(2, "300");
+    spec.points = read_lines(*points, 2, "300");
     if (static_cast<std::size_t>(spec.points) < corners) {
       points->complain(fmt::format("at least {} points, one for every corner of the path", corners),
                        "300 are usual");
@@ -225,7 +250,7 @@ void read_dispersion(const Cursor& cursor, InputFiles& files, Case& result) {
   if (const auto spectrum = section.find("spectrum")) {
     spec.spectrum = read_spectrum(*spectrum, files);
   }
-  if (const auto waves = section.find("waves")) spec.waves = waves->integer(1, "10");
+  if (const auto waves = section.find("waves")) spec.waves = read_lines(*waves, 1, "10");
   result.dispersion = std::move(spec);
 }
 

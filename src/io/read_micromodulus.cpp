@@ -78,8 +78,8 @@ Orbit orbit_in(const NumberTable& table, std::size_t row, int dimension, const s
                              : dimension == 2 ? "dx >= dy >= 0"
                                               : "dx >= dy >= dz >= 0";
     if (value != std::floor(value) || value < 0.0 || value > before || (a == 0 && value == 0.0)) {
-      invalid_input({fmt::format("a whole number for {}, {}", name, line),
-                     fmt::format("{}", value),
+      invalid_input({fmt::format("whole numbers, {}", line),
+                     fmt::format("{} for {}", value, name),
                      "an orbit is named by its offset in spacings without signs, the largest component first",
                      {file.string(), table.line[row], 1}});
     }

@@ -2,6 +2,7 @@
 """perimode dispersion: files, closed forms, optimised tables in the other analyses, and every kind of bad input."""
 import json
 import math
+import re
 
 from program import ProgramTest, cloud_csv, main, rows
 
@@ -256,11 +257,15 @@ class Plates(DispersionTest):
         run = self.perimode("dispersion", "case.yaml", "--force", "--set", "analysis.dispersion.optimise.lower_bound=0.9")
         line = self.one_error(run, 1, stdout="infeasible")
         # alpha(1,0) + 2 alpha(2,0) = 2.0943951024
-        self.assertIn("0.6981317", line)
+        largest = re.search(r"can be met is (\S+); give", line).group(1)
+        self.assertAlmostEqual(float(largest), 2.0943951024 / 3, delta=2e-9)
         self.assertEqual(self.summary("plate")["status"], "infeasible")
         self.assertEqual(self.summary("plate")["certificate"]["feasible"], False)
         self.assertAlmostEqual(self.summary("plate")["certificate"]["largest_feasible_bound"], 2.0943951024 / 3, delta=1e-9)
         self.assertFalse((self.folder / "out/plate/coefficients.csv").exists())
+        # The bound the message names can be met.
+        run = self.perimode("dispersion", "case.yaml", "--force", "--set", f"analysis.dispersion.optimise.lower_bound={largest}")
+        self.assertEqual(run.returncode, 0, run.stderr)
 
     def test_what_is_left_aside_is_told(self):
         run = self.run_case(PLATE.replace("periodic: [x, y]", "precracks: [ { from: [0, 4], to: [2, 4] } ]"))
@@ -397,6 +402,15 @@ class Clouds(DispersionTest):
             self.assertIn(word, run.stdout)
         run = self.good("check", "case.yaml")
         self.assertIn("along x", run.stdout)
+
+    def test_a_cloud_without_bonds_is_refused_at_its_body(self):
+        self.write("cloud.csv", cloud_csv(8, 7))
+        for command in ("dispersion", "check"):
+            self.write("case.yaml", re.sub(r"horizon: .*", "horizon: { length: 0.05 }", CLOUD))
+            line = self.one_error(self.perimode(command, "case.yaml"), 2)
+            self.assertIn("bonds between the particles", line)
+            self.assertIn("case.yaml:", line)
+        self.assertFalse((self.folder / "out/cloud").exists())
 
     def test_a_cloud_with_a_surface_is_refused(self):
         self.write("cloud.csv", cloud_csv(8, 7))

@@ -102,6 +102,23 @@ TEST(Optimise, BoundedProgrammesInThePlane) {
   }
 }
 
+TEST(Optimise, TheSizeOfTheWeightsDoesNotCount) {
+  const Lattice<2> lattice = constant_lattice<2>(3);
+  for (const ErrorNorm norm : {ErrorNorm::l2, ErrorNorm::l1}) {
+    if (norm == ErrorNorm::l1 && !has_clp()) continue;
+    OptimiseOptions options;
+    options.norm = norm;
+    options.weights = {0.5, 1.0};
+    const std::vector<double> expected = optimise_micromodulus(lattice, options).alpha;
+    for (const double size : {0x1p-40, 0x1p60}) {  // a power of two: the very same problem
+      options.weights = {0.5 * size, size};
+      const OptimisedMicromodulus scaled = optimise_micromodulus(lattice, options);
+      EXPECT_EQ(scaled.alpha, expected) << size;
+      EXPECT_LT(scaled.optimality, 1e-8) << size;
+    }
+  }
+}
+
 TEST(Optimise, LinearProgrammesReachTheLeastAbsoluteError) {
   if (!has_clp()) GTEST_SKIP() << "built without Clp";
   OptimiseOptions options;

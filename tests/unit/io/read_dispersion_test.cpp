@@ -208,6 +208,9 @@ const BadCase analysis[] = {
      "analysis",
      PERIMODE_DISPERSION("^optimise: {}"),
      {"no `optimise` with a cloud"}},
+    {"path_far", "plate", "analysis", PERIMODE_DISPERSION("path: [[0, 0], ^[0, 101]]"), {"-100 to 100"}},
+    {"points_many", "plate", "analysis", PERIMODE_DISPERSION("points: ^1000001"), {"at most 1000000"}},
+    {"waves_many", "cloud", "analysis", PERIMODE_DISPERSION("waves: ^1000001"), {"at most 1000000"}},
     {"waves_zero", "cloud", "analysis", PERIMODE_DISPERSION("waves: ^0"), {"a whole number >= 1"}},
 };
 INSTANTIATE_TEST_SUITE_P(Analysis, BadDispersionTest, testing::ValuesIn(analysis), test::name_of);
@@ -236,7 +239,7 @@ const BadCase optimise[] = {
     {"ratio_half", "solid", "analysis", PERIMODE_OPTIMISE("poissons_ratio: ^0.5"), {"> -1 and < 0.5"}},
     {"weights_one", "solid", "analysis", PERIMODE_OPTIMISE("weights: ^[1]"), {"2 numbers, for P and S"}},
     {"weights_negative", "solid", "analysis", PERIMODE_OPTIMISE("weights: [1, ^-1]"), {"weights.1"}},
-    {"weights_zero", "solid", "analysis", PERIMODE_OPTIMISE("weights: ^[0, 0]"), {"a weight > 0"}},
+    {"weights_zero", "solid", "analysis", PERIMODE_OPTIMISE("weights: ^[0, 0]"), {"a weight > 0", "got [0, 0]"}},
     {"fit_negative", "solid", "analysis", PERIMODE_OPTIMISE("fit: ^-1"), {"a whole number >= 0"}},
     {"correction",
      "plate",

@@ -118,11 +118,11 @@ TEST(ReadMicromodulus, BadTablesAreToldWithFileAndLine) {
   expect_table_complaint(head + good + "2,0,0,one\n", 5, {"a finite number for alpha", "'one'"});
   expect_table_complaint(head + good + "2,0,0\n", 5, {"4 fields"});
   expect_table_complaint(head + good + "0,0,2,1\n", 5, {"dx >= dy >= dz >= 0", "largest component first"});
-  expect_table_complaint(head + good + "1,2,0,1\n", 5, {"a whole number for dy"});
-  expect_table_complaint(head + good + "1.5,0,0,1\n", 5, {"a whole number for dx", "1.5"});
-  expect_table_complaint(head + good + "1,-1,0,1\n", 5, {"a whole number for dy", "-1"});
-  expect_table_complaint(head + good + "1e300,0,0,1\n", 5, {"a whole number for dx"});
-  expect_table_complaint(head + good + "0,0,0,1\n", 5, {"a whole number for dx"});
+  expect_table_complaint(head + good + "1,2,0,1\n", 5, {"dx >= dy >= dz >= 0", "2 for dy"});
+  expect_table_complaint(head + good + "1.5,0,0,1\n", 5, {"whole numbers", "1.5 for dx"});
+  expect_table_complaint(head + good + "1,-1,0,1\n", 5, {"-1 for dy"});
+  expect_table_complaint(head + good + "1e300,0,0,1\n", 5, {"for dx"});
+  expect_table_complaint(head + good + "0,0,0,1\n", 5, {"for dx"});
   expect_table_complaint(head + good + "2,1,0,1\n", 5, {"one of the 4 orbits", "(2, 1, 0)", "horizon"});
   expect_table_complaint(head + good + "1,1,0,1\n", 5, {"every orbit once", "(1, 1, 0) again"});
   expect_table_complaint(head + good, 0,
