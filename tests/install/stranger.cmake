@@ -30,7 +30,7 @@ endif()
 run(${CMAKE_COMMAND} -S "${CMAKE_CURRENT_LIST_DIR}/consumer" -B "${WORK_DIR}/build" -G "${GENERATOR}"
     "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}" "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}"
     "-DCMAKE_BUILD_TYPE=${build_type}" ${perimode})
-run(${CMAKE_COMMAND} --build "${WORK_DIR}/build" --parallel 2)
+run(${CMAKE_COMMAND} --build "${WORK_DIR}/build" --target consumer --parallel 2)
 run("${WORK_DIR}/build/consumer")
 expect("2509.113194 Hz")
 
