@@ -306,24 +306,6 @@ const char* word(StepIntegrator integrator) {
   return integrator == StepIntegrator::newmark ? "newmark" : "central_difference";
 }
 
-const char* word(Kernel kernel) {
-  switch (kernel) {
-    case Kernel::constant:
-      return "constant";
-    case Kernel::conical:
-      return "conical";
-    case Kernel::gaussian:
-      return "gaussian";
-    case Kernel::inverse_distance:
-      return "inverse_distance";
-    case Kernel::fourier:
-      return "fourier";
-    case Kernel::shells:
-      break;
-  }
-  return "shells";
-}
-
 template <int Dim>
 std::string point_text(const Point<Dim>& point, double unit) {
   const std::vector<double> numbers(point.data(), point.data() + Dim);

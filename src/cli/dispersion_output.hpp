@@ -53,7 +53,6 @@ template <int Dim>
 [[nodiscard]] const char* word(OptimiseMethod method);
 [[nodiscard]] const char* word(ErrorNorm norm);
 [[nodiscard]] const char* word(ErrorDomain domain);
-[[nodiscard]] const char* word(Kernel kernel);
 [[nodiscard]] const char* word(StepIntegrator integrator);
 
 /// "(1, 0)".

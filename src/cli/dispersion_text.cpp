@@ -115,7 +115,7 @@ std::string lattice_text(const Lattice<Dim>& lattice) {
       "lattice          {}, spacing {:.6g} m, horizon {:.6g} m: {} bonds per particle in {} orbits\n"
       "kernel           {}\n",
       theory, lattice.family.spacing, medium.horizon, lattice.family.size(), lattice.family.shell.size(),
-      word(medium.material.micromodulus.kernel));
+      name(medium.material.micromodulus.kernel));
 }
 
 template <int Dim>

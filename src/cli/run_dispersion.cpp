@@ -84,13 +84,10 @@ std::string infeasible_message(const OptimisedMicromodulus& result, const Optimi
       options.lower_bound ? fmt::format(" with lower_bound {}", *options.lower_bound) : std::string();
   const double most = result.largest_feasible_bound;
   if (!std::isfinite(most)) return fmt::format("no coefficients{} meet the long-wave speeds", bound);
-  // In few digits, but never above it.
-  constexpr int digits = 9;
-  const double unit = std::pow(10.0, std::floor(std::log10(std::max(std::abs(most), 1e-9))) + 1 - digits);
   return fmt::format(
-      "no coefficients{} meet the long-wave speeds: the largest bound that can be met is {:.{}g}; give that "
+      "no coefficients{} meet the long-wave speeds: the largest bound that can be met is {}; give that "
       "or less",
-      bound, std::floor(most / unit) * unit, digits);
+      bound, most);
 }
 
 /// Warnings about what was found.
@@ -98,7 +95,7 @@ template <int Dim>
 void warn(const OptimisedReport<Dim>& optimised, Console& console) {
   if (!optimised.lattice) return;
   constexpr double no_optimum = 1e-6;
-  if (optimised.result.optimality > no_optimum) {
+  if (!(optimised.result.optimality <= no_optimum)) {
     console.warning(
         fmt::format("the coefficients are no optimum: the conditions of one are met to {:.1e} only; take "
                     "weights of one size",
@@ -171,7 +168,7 @@ int run_lattice(const Case& input, const Arguments& arguments, Console& console)
                                     {"orbits", lattice.family.shell.size()},
                                     {"spacing", lattice.family.spacing},
                                     {"horizon", lattice.medium.horizon},
-                                    {"kernel", word(lattice.medium.material.micromodulus.kernel)}};
+                                    {"kernel", name(lattice.medium.material.micromodulus.kernel)}};
   summary["classical_speed"] = {{"P", classical_speed(lattice.medium, Branch::pressure)}};
   if (Dim > 1) summary["classical_speed"]["S"] = classical_speed(lattice.medium, Branch::shear);
   summary["phase_error"] = spec.phase_error;

@@ -19,7 +19,7 @@ template <int Dim>
 void require_lattice(const Lattice<Dim>& lattice) {
   const Kernel kernel = lattice.medium.material.micromodulus.kernel;
   if (kernel != Kernel::constant && !is_lattice_kernel(kernel)) {
-    invalid_input({"the constant kernel or multipliers of it (fourier, shells)", "another kernel",
+    invalid_input({"the constant kernel or multipliers of it (fourier, shells)", name(kernel),
                    "choose micromodulus: {kernel: constant}"});
   }
   if (std::any_of(lattice.family.weight.begin(), lattice.family.weight.end(),

@@ -151,15 +151,12 @@ void read_targets(const Section& section, int dimension, OptimiseOptions& option
 
 /// The kernel to be bettered is a multiple of the constant one in whole cells.
 void check_kernel(const Cursor& cursor, const Model& model) {
-  const auto refuse = [&](const char* expected, const char* got, const char* remedy) {
+  const auto refuse = [&](const char* expected, const std::string& got, const char* remedy) {
     invalid_input({cursor.path() + ": " + expected, got, remedy, cursor.where()});
   };
   const Kernel kernel = model.material.micromodulus.kernel;
   if (kernel != Kernel::constant && !is_lattice_kernel(kernel)) {
-    refuse("a material of the kernel constant, fourier or shells",
-           kernel == Kernel::gaussian  ? "gaussian"
-           : kernel == Kernel::conical ? "conical"
-                                       : "inverse_distance",
+    refuse("a material of the kernel constant, fourier or shells", name(kernel),
            "what is sought multiplies the constant kernel: take that");
   }
   if (model.volume_correction != VolumeCorrection::none) {

@@ -157,6 +157,24 @@ double kernel_shape(const Micromodulus& micromodulus, double r, double horizon) 
   return 0.0;
 }
 
+std::string name(Kernel kernel) {
+  switch (kernel) {
+    case Kernel::constant:
+      return "constant";
+    case Kernel::conical:
+      return "conical";
+    case Kernel::gaussian:
+      return "gaussian";
+    case Kernel::inverse_distance:
+      return "inverse_distance";
+    case Kernel::fourier:
+      return "fourier";
+    case Kernel::shells:
+      break;
+  }
+  return "shells";
+}
+
 bool is_lattice_kernel(Kernel kernel) { return kernel == Kernel::fourier || kernel == Kernel::shells; }
 
 template <int Dim>

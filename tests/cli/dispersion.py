@@ -267,6 +267,12 @@ class Plates(DispersionTest):
         run = self.perimode("dispersion", "case.yaml", "--force", "--set", f"analysis.dispersion.optimise.lower_bound={largest}")
         self.assertEqual(run.returncode, 0, run.stderr)
 
+    def test_a_bar_has_no_waves_of_s_to_weigh(self):
+        self.write("case.yaml", BAR)
+        line = self.one_error(self.perimode("dispersion", "case.yaml", "--set", "analysis.dispersion.optimise={ weights: [0, 1] }"), 2)
+        self.assertIn("a weight > 0 of P", line)
+        self.assertIn("got [0, 1]", line)
+
     def test_what_is_left_aside_is_told(self):
         run = self.run_case(PLATE.replace("periodic: [x, y]", "precracks: [ { from: [0, 4], to: [2, 4] } ]"))
         self.assertIn("left aside       pre-cracks", run.stdout)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "perimode/bonds/family.hpp"
@@ -38,6 +39,7 @@ template <int Dim>
 /// Whether the kernel is a table or series of a lattice (fourier, shells): multipliers of the constant
 /// kernel's c0 that are never renormalised.
 [[nodiscard]] bool is_lattice_kernel(Kernel kernel);
+[[nodiscard]] std::string name(Kernel kernel);  ///< as in case files: "constant", "inverse_distance", ...
 
 /// c0 in c(r) = c0 g(r), N/m6 (3D; times m per section otherwise), from the moment integral
 ///   (1/4) int c(r) r dV = dilation_energy   over the continuum family 0 < r <= horizon.
